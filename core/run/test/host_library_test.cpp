@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The libraries of the host are opened when they are asked for; this program links none of them, as the host
-// does not.
+// The libraries of the host are opened on request; this program links none of them, and neither does the
+// host.
 #include "core/run/host_library.hpp"
 
 #include <fstream>
@@ -20,7 +20,7 @@ namespace {
 
 const fs::path build = fs::path(FULMAR_BIN_DIR).parent_path();
 
-/// A home folder of this test's own, whose library is a copy of `file`, or empty.
+/// A home folder of this test, whose library is a copy of `file`, or empty.
 struct Home {
   fs::path folder = fs::temp_directory_path() / ("fulmar_home_" + std::to_string(getpid()));
   fs::path library;
@@ -55,9 +55,9 @@ bool is_mapped(const std::string& library) {
 
 std::vector<TapChannel> channels() { return {TapChannel{"/nav/state", test::mixed_type()}}; }
 
-TEST_CASE("a flight opens the libraries that its mission asks for, and no other") {
+TEST_CASE("a flight opens the libraries that its mission uses, and no other") {
   FlightOptions options;
-  options.speed = 1e6;  // paced: onlookers are let in
+  options.speed = 1e6;  // paced: clients are admitted
   options.duration_s = 0.05;
   options.log = false;
   const std::string phase = lab::one_phase, live = "live: {listen: \"127.0.0.1:0\"}\n";
@@ -85,11 +85,11 @@ TEST_CASE_TEMPLATE(
   CHECK(has(text, "run.library_missing("));
   CHECK(text.ends_with(", fulmar_" + section + ")"));
   CHECK(refusal<Library>({}).starts_with("m.yaml:6: " + section + ": "));
-  const Where option = {"--live 127.0.0.1:0", 0};  // of the command line: no file has a line for it
+  const Where option = {"--live 127.0.0.1:0", 0};  // from the command line: no file has a line for it
   CHECK(refusal<Library>({}, option).starts_with("--live 127.0.0.1:0: " + section + ": "));
 }
 
-TEST_CASE_TEMPLATE("a library that cannot be loaded is refused by its path, with what it needs", Library,
+TEST_CASE_TEMPLATE("a library that cannot be loaded is rejected by its path, with its requirements", Library,
                    DdsLibrary, LiveLibrary) {
   const Home home(Library::section);
   const std::string text = refusal<Library>({"/nowhere", home.folder, build});
@@ -101,7 +101,7 @@ TEST_CASE_TEMPLATE("a library that cannot be loaded is refused by its path, with
   CHECK(has(text, Library::needs));
 }
 
-TEST_CASE_TEMPLATE("a library of another build, or another library, is refused", Library, DdsLibrary,
+TEST_CASE_TEMPLATE("a library of another build, or another library, is rejected", Library, DdsLibrary,
                    LiveLibrary) {
   const std::string section = Library::section;
   {
@@ -116,7 +116,7 @@ TEST_CASE_TEMPLATE("a library of another build, or another library, is refused",
         "m.yaml:6: " + section + ": run.library_invalid(" + home.library.string() + ")");
 }
 
-TEST_CASE("Fast DDS is in the process once a flight asks for it, and its faults arrive as the host's own") {
+TEST_CASE("Fast DDS is in the process once a flight uses it, and its faults arrive as the host's own") {
   CHECK_FALSE(is_mapped("libfastrtps"));
   const auto& library = host_library<DdsLibrary>({}, {"/nowhere", build});
   CHECK(is_mapped("libfastrtps"));

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# One control law, built in every way that its author may choose, under one host: other compiler, other optimisation, other C++ library
-# mode, other version of a message. Layouts are equal, the mission is flown; fast-math is refused.
+# Builds one control law in every way that its author may choose, for one host: other compiler, other optimisation, other C++ library
+# mode, other version of a message. Layouts are equal, the mission is flown; fast-math is rejected.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD build=$PWD/${1:-build}
@@ -27,7 +27,7 @@ seed: 7
 done: "manage.progress.circuits >= 1"
 END
 
-# compile COMPILER NAME SOURCE [flag...]: a plugin in $scratch. An include folder among the flags goes before the SDK's own.
+# compile COMPILER NAME SOURCE [flag...]: builds a plugin in $scratch. An include folder among the flags precedes the SDK's own.
 compile() {
   local compiler=$1 name=$2 source=$3 unique=""
   shift 3
@@ -53,14 +53,14 @@ mission() {
   } >"$scratch/$1.yaml"
 }
 
-# fly NAME: to the end, without a guard
+# fly NAME: runs to the end, without a guard
 fly() {
   "$fulmar" run "$scratch/$1.yaml" --json --no-log >"$scratch/$1.json" 2>"$scratch/$1.err" || { cat "$scratch/$1.err"; echo "$1: not flown"; exit 1; }
   grep -q '"result": "flown"' "$scratch/$1.json" || { cat "$scratch/$1.json"; echo "$1: not flown"; exit 1; }
   grep -q '"guards": \[\]' "$scratch/$1.json" || { cat "$scratch/$1.json"; echo "$1: a guard fired"; exit 1; }
 }
 
-# layout NAME: what the host reads of ports, messages and parameters, without what is said of the file itself
+# layout NAME: the host's view of ports, messages and parameters, without the line of the file itself
 layout() { "$fulmar" inspect "$scratch/$1.so" --fields | sed '1,/^$/d'; }
 
 # refused NAME PATTERN: `check` rejects it with this code
@@ -93,7 +93,7 @@ variant native_other_compiler "$other" -O3 -march=native
 variant unoptimised "$first" -O0
 variant library_debug "$first" -O1 -D_GLIBCXX_DEBUG -D_GLIBCXX_DEBUG_PEDANTIC
 
-# a plugin whose inside changes with the instruction set: Eigen aligns its matrices to what -march gives it
+# a plugin whose internal layout depends on the instruction set: Eigen aligns its matrices for -march
 geographic=-lGeographicLib
 if ! "$first" -shared -fPIC "$geographic" -o "$scratch/geographic" 2>/dev/null; then geographic=-lGeographic; fi  # its older name
 ekf_compiler=$other
@@ -103,7 +103,7 @@ mission native_ekf "in: {status: vehicle.status}" nav
 fly native_ekf
 echo "native_ekf: flies"
 
-# Messages of other versions. A writer may have more fields than its readers, a reader fewer than its writer.
+# Messages of other versions. A writer may have more fields than its readers, and a reader fewer than its writer.
 changed_sdk() { # changed_sdk NAME MESSAGE_FILE SED: a copy of the SDK with one message changed
   mkdir -p "$scratch/$1"
   cp -r sdk/include "$scratch/$1/"
@@ -125,7 +125,7 @@ for name in newer_writer older_reader; do
 done
 refused newer_reader "types.writer_field_missing(, added_m)"
 
-# fast-math: refused by the compiler where the SDK is used, and by the host where it is not
+# fast-math: rejected by the compiler in code with the SDK, and by the host in other code
 for flag in -ffast-math -Ofast; do
   if compile "$first" fast_math "$scratch/my_law.cpp" $flag 2>"$scratch/fast_math.txt"; then echo "fast_math: $flag compiles"; exit 1; fi
   grep -q 'Fulmar plugins are not built with -ffast-math' "$scratch/fast_math.txt"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# What it costs to compile: processor seconds per object, per target and in all, without a compiler cache; and what an author waits for a
-# plugin, in relation to a file that only includes Eigen.
+# Cost of compiling: processor seconds per object, per target and in total, without a compiler cache; and the build time of an author's
+# plugin, relative to a file that only includes Eigen.
 #   build_cost.sh [--revision REV] [--tests] [--top N]     REV: another revision of this repository, built in a folder of its own
 #   build_cost.sh --plugin [--revision REV]                only the figures of a plugin
 set -euo pipefail
@@ -25,7 +25,7 @@ if [ -n "$revision" ]; then
   tree=$scratch/tree
 fi
 
-# processor_s COMMAND...: user and system time of the quickest of three
+# processor_s COMMAND...: user and system time of the fastest of three runs
 processor_s() {
   local TIMEFORMAT='%U %S'
   for _ in 1 2 3; do { time "$@" >/dev/null 2>&1; } 2>&1; done | awk '{print $1 + $2}' | sort -n | head -n 1
@@ -44,7 +44,7 @@ echo "control_slc.cpp: $of_slc s; the law of 'fulmar new --role outer': $of_law 
   "(law / Eigen: $(awk "BEGIN { printf \"%.2f\", $of_law / $of_eigen }"))"
 [ $plugin_only = no ] || exit 0
 
-# Stands before the compiler, as ccache does otherwise.
+# Precedes the compiler, as ccache does otherwise.
 cat >"$scratch/timed" <<'END'
 #!/usr/bin/env bash
 TIMEFORMAT='%3U %3S'

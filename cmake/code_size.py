@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Lines of code without comments and blank lines, per folder of core/ and links/, tests apart; and what is too large.
+"""Lines of code without comments and blank lines, per folder of core/ and links/, without tests; and parts that are too large.
 
     code_size.py                prints the lines; exit code 1 when a limit below is exceeded
     code_size.py --most N       the same, and when the part of the host that flies has more than N lines
@@ -23,7 +23,7 @@ root = Path(__file__).resolve().parent.parent
 
 
 def code_lines(text):
-    """Strings stay whole: a // inside one starts no comment."""
+    """Strings are skipped: a // inside one starts no comment."""
     pattern = re.compile(r'"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'|//[^\n]*|/\*.*?\*/', re.S)
     bare = pattern.sub(lambda m: m[0] if m[0][0] in "\"'" else "\n" * m[0].count("\n"), text)
     return sum(1 for line in bare.split("\n") if line.strip())
@@ -63,7 +63,7 @@ def structs(text):
 
 
 def declared(statement):
-    """How many data members a statement at the first level of a struct declares."""
+    """Number of data members that a statement at the first level of a struct declares."""
     statement = re.sub(r"\b(?:public|private|protected)\s*:", "", statement).strip()
     while re.search(r"<[^<>]*>", statement):
         statement = re.sub(r"<[^<>]*>", "", statement)
@@ -76,7 +76,7 @@ def declared(statement):
 
 
 def against_list(kind, found, limit, unit):
-    """Faults: what is above the limit, and entries of the list of its kind that are too generous. `found`: {name: size}."""
+    """Faults: sizes above the limit, and entries of the list of exceptions that are too large. `found`: {name: size}."""
     name_of_list = f"cmake/{kind}s.txt"
     listed = {}
     for line in (root / name_of_list).read_text().splitlines():
@@ -93,7 +93,7 @@ def against_list(kind, found, limit, unit):
 
 
 def members_of(folders):
-    """{file:struct: data members}; of structs of one name in a file the most."""
+    """{file:struct: data members}; of structs of one name in a file the largest."""
     found = {}
     for name in git_files(*folders):
         if "/test/" not in name and name.endswith((".cpp", ".hpp", ".h", ".c")):

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""code_size.py finds what is too large: each fault is put into a small tree of its own."""
+"""code_size.py finds each part that is too large: every fault is put into a separate small tree."""
 import pathlib
 import shutil
 import subprocess

@@ -19,7 +19,7 @@ HEADS = {"if", "for", "while", "switch"}
 
 
 class Item:
-    """A token, or a bracket with what is in it as one."""
+    """A token, or a bracket with its content as one."""
 
     def __init__(self, text, start, end):
         self.text, self.start, self.end = text, start, end
@@ -96,7 +96,7 @@ def is_lambda(items):
 
 
 def classify(items, kind):
-    """What a brace after these items holds."""
+    """Kind of the content of a brace after these items."""
     if is_lambda(items):
         return "code"
     words = [item.text for item in items]
@@ -114,7 +114,7 @@ def classify(items, kind):
 
 
 def skip_head(items):
-    """How many items stand before the statement itself: labels and the heads of what steers it."""
+    """Number of items before the statement itself: labels and the heads of control statements."""
     i = 0
     while i < len(items):
         text = items[i].text
@@ -138,7 +138,7 @@ def skip_head(items):
 
 
 def template_end(items, i):
-    """The place behind the template arguments that begin at `<`, or None when it compares."""
+    """The place after the template arguments that begin at `<`, or None for a comparison."""
     depth = 0
     for k in range(i, len(items)):
         text = items[k].text
@@ -165,7 +165,7 @@ def outside_templates(items):
 
 
 def is_declaration(items):
-    """Whether a statement begins with a type and a name."""
+    """True when a statement begins with a type and a name."""
     if items[0].text in DECLARE or items[0].text in SPECIFIERS:
         return True
     if items[0].text in VERBS or not (items[0].word() or items[0].text == "::"):
@@ -182,7 +182,7 @@ def is_declaration(items):
 
 
 def split(text, chains):
-    """The text with each chain as statements of their own, in braces where a head had none."""
+    """The text with each chain as separate statements, in braces where a head had none."""
     edits = []  # (place, characters to drop, what comes there)
     for head, body, commas, end in chains:
         for comma in commas:

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""commas.py finds each chain of statements and no other comma, and splits what it finds."""
+"""commas.py finds each chain of statements and no other comma, and splits the chains."""
 import contextlib
 import io
 import pathlib

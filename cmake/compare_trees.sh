@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Does this tree fly as another revision did? Both are built; every mission that flies in simulation alone is flown with seeds 1 to 3 by both,
-# and the logs are compared message by message. Of the host's own topics (/fulmar/...) differences are told, of all others they fail. Two runs
+# Compares the flights of this tree with those of another revision. Both are built; both run every mission of simulation alone with seeds 1 to 3,
+# and the logs are compared message by message. Differences in topics of the host (/fulmar/...) are reported, others fail. Two runs
 # of this tree give equal bytes, and each log is replayed. Logs of the other revision are read by info, export and diff.
 #   compare_trees.sh REV [BUILD]      REV is built in build/compare/REV once, BUILD (build) holds this tree's `flight` and `slow_planner`
 set -euo pipefail
@@ -19,7 +19,7 @@ if [ ! -e "$other/build/bin/fulmar" ]; then
 fi
 ninja -C "$build" flight slow_planner >/dev/null
 
-# mission_file TREE-BUILD MISSION: the shipped one, or that of the example of this name
+# mission_file TREE-BUILD MISSION: the shipped mission, or that of the example of this name
 mission_file() {
   local file
   file=$(dirname "$1")/configs/missions/$2.yaml

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Core and links know no message: of the SDK they read abi.h, diagnostic.hpp and quiet_thread.hpp alone, as the compiler's own lists of what it read tell.
+# Core and links are independent of messages: of the SDK they include abi.h, diagnostic.hpp and quiet_thread.hpp alone, by the compiler's dependency lists.
 set -euo pipefail
 cd "$(dirname "$0")/../build"
 mapfile -t sources < <(cd .. && find core links -name '*.cpp' ! -path '*/test/*')
-# An object's list names all that it was made of: the source, or the sources that were compiled together, and every header.
+# The list of an object names all its inputs: the source, or the sources that were compiled together, and every header.
 read_files=$(ninja -t deps | awk -v sources="${sources[*]}" '
   function end_of_object(   i) {
     if (of_core) for (i = 1; i <= n_sdk; i++) print "message: " of_core " reads " sdk[i]

@@ -38,7 +38,7 @@ def read(text):
 
 
 def closed(code, at):
-    """The place behind the bracket that `code[at]` opens."""
+    """The place after the bracket that closes `code[at]`."""
     opens, shuts, depth = code[at], {"(": ")", "{": "}", "[": "]", "<": ">"}[code[at]], 0
     for place in range(at, len(code)):
         depth += (code[place] == opens) - (code[place] == shuts)
@@ -55,7 +55,7 @@ def without_template(head):
 
 
 def name_of(head, opens):
-    """The name that a declaration gives, or None: `head` is its text up to `{` or `;`, `opens` says which."""
+    """The name of a declaration, or None: `head` is its text up to `{` or `;`, `opens` is that character."""
     if re.match(r"\s*template\s*<\s*>", head):
         return None
     head = without_template(head)

@@ -15,7 +15,7 @@ NOT_FLIGHT = re.compile(r"/test/|_command\.|words|/see/|report|main\.|/check_|_s
                         r"|/read|/planform_|recognise|xml_|airframe_(?:file|text|yaml)|coefficient_json|/import\.")
 FIRST_ID = 100000  # the listed faults have smaller ones
 
-# What can be wrong at [begin, end): `new` stands there instead. The fault is put in at `slot`, the expression or
+# A fault in [begin, end): `new` replaces the text. The fault is put in at `slot`, the expression or
 # the statement around it.
 Fault = collections.namedtuple("Fault", "kind line begin end new slot statement")
 Drawn = collections.namedtuple("Drawn", "id path line kind was now")
@@ -36,7 +36,7 @@ TOKENS = re.compile(
     r"|(?P<sign>(?<=[(\[{=?:,] )-(?=[\w(])|(?<=[(\[{])-(?=[\w(])|(?<=return )-(?=[\w(]))"
     r"|(?P<constant>(?<![\w.<'])\d[\d']*(?:\.\d+)?(?:e-?\d+)?(?![\w.>']))")
 LITERAL = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|(?<![0-9a-fA-F])\'(?:\\.|[^\'\\\n])*\'', re.S)
-# Lines that hold no fault of flight: directives, declared parameters, what the compiler checks, types.
+# Lines without faults of flight: directives, declared parameters, checks of the compiler, types.
 NO_LINE = re.compile(r"^\s*(#|static_assert|using |template\b|enum\b|friend |case .*:$)")
 PARAMETER = re.compile(r"^\s*(?:\w*Param\w*|Flag|Count|(?:Choice|Vector|Record)<[\w:]+>) \w+\{")
 NO_STATEMENT = r"(?!(?:return|const|constexpr|static|auto|delete|using|break|continue|else)\b)"
@@ -52,7 +52,7 @@ def masked(text):
 
 
 def matching(text, at):
-    """Behind the bracket that closes the one at `at`."""
+    """The place after the bracket that closes the one at `at`."""
     depth = 0
     for i in range(at, len(text)):
         depth += (text[i] in "([{") - (text[i] in ")]}")
@@ -115,7 +115,7 @@ def token_fault(text, m, line):
 
 
 def line_faults(text, start, line_text, line):
-    """What a whole line can have wrong: a statement that is gone, a sum taken off, a condition turned round."""
+    """Faults of a whole line: a removed statement, a removed summand, an inverted condition."""
     before = text[:start].rstrip()
     whole = STATEMENT.match(line_text) and line_text.count("(") == line_text.count(")")
     if whole and '"' not in line_text and AFTER_A_STATEMENT.search(before):
@@ -133,7 +133,7 @@ def line_faults(text, start, line_text, line):
 
 
 def faults_in(source):
-    """All that one file can have wrong, in order."""
+    """All possible faults of one file, in order."""
     text, found, start = masked(source), [], 0
     in_parameter = False
     for line, line_text in enumerate(text.split("\n"), 1):
@@ -158,7 +158,7 @@ def in_place(source, fault):
 
 
 def on_one_line(text):
-    """Without comments: the lines of the file keep their numbers."""
+    """The text without comments; line numbers stay."""
     return " ".join(LITERAL.sub(lambda m: m.group() if m.group()[0] in "\"'" else " ", text).split())
 
 
@@ -173,7 +173,7 @@ def choice(source, fault, fault_id):
 
 
 def unfixed(source, begin):
-    """Where a constant of the compiler is made one of the program: a fault is chosen at run time."""
+    """Places where a constant of the compiler must become one of the program: a fault is chosen at run time."""
     start = source.rfind("\n", 0, begin) + 1
     while start > 0 and source[:start].rstrip()[-1:] == ",":  # goes on from the line before
         start = source.rfind("\n", 0, start - 1) + 1
@@ -198,7 +198,7 @@ def with_faults(source, faults):
 
 
 class Draw:
-    """Draws from the sources, {path: text}, in an order that the seed alone decides."""
+    """Draws from the sources, {path: text}, in an order that depends on the seed alone."""
 
     def __init__(self, sources, seed):
         self.sources = sources
@@ -213,8 +213,8 @@ class Draw:
         self.next_id = FIRST_ID
 
     def draw(self, count):
-        """`count` more; each stands apart from all others. Drawn are a line, the kind, and the place in the line, so
-        that long expressions and constants do not take all."""
+        """Draws `count` more, all at different places. The line, the kind, and the place in the line are drawn, so
+        that long expressions and constants are not preferred."""
         while count > 0 and self.left:
             path, faults = self.left.pop(self.random.randrange(len(self.left)))
             kind = self.random.choice(sorted({f.kind for f in faults}))
@@ -227,7 +227,7 @@ class Draw:
             count -= 1
 
     def drop(self, ids):
-        """What the compiler refuses is not drawn: others are in its place."""
+        """Replaces faults that the compiler rejects by others."""
         for fault_id in ids:
             del self.taken[fault_id]
         self.draw(len(ids))

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Whether every source is laid out as .clang-format and web/.prettierrc.json say.   format.sh [--fix]
+# Checks the layout of every source against .clang-format and web/.prettierrc.json.   format.sh [--fix]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 fix=${1:-}
 
-# Releases of clang-format differ in the details; it is 14 that decides.
+# Releases of clang-format differ in details; release 14 is the reference.
 check_cpp() {
   local program mode=(--dry-run -Werror)
   program=$(command -v clang-format-14 || command -v clang-format || true)
@@ -18,7 +18,7 @@ check_cpp() {
   echo "every source is laid out as .clang-format says"
 }
 
-# With the prettier of web/package-lock.json, from where the build of the page has its packages.
+# With the prettier of web/package-lock.json, from the packages of the page's build.
 check_web() {
   local mode=--check
   if command -v npm >/dev/null; then cmake -DNPM=npm -DSOURCE="$PWD/web" -DWORK="$PWD/build/web" -DALL=1 -P web/fetch.cmake; fi

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# What a user gets: an installed prefix and the pair of Debian packages. In the prefix, outside the tree, a new plugin for every role is
+# Tests the installed prefix and the pair of Debian packages. In the prefix, outside the tree, a new plugin for every role is
 # written, built with warnings as errors, tested and flown. The packages hold the same files, programs without their symbols. In each, a
 # plugin for one role is written and flown; a plugin is built by pkg-config alone; the debugger stops in a plugin in flight; the model as a
 # library flies from C++ and from Python.

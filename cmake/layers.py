@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The folders of the tree stand on each other: no include upwards, and no circle of units, where a unit is a header with
-the source beside it. Each folder of core/, links/ and flight/ has a README. Tests may include what they like."""
+"""Checks the order of the folders: no include upwards, and no circle of units, where a unit is a header with
+its source. Each folder of core/, links/ and flight/ has a README. Tests may include any file."""
 import re
 import subprocess
 import sys
 from pathlib import Path
 
-# From the bottom up. A folder includes itself and what stands before it; folders of one line do not include each other.
+# From the bottom up. A folder includes itself and the folders before it; folders of one line do not include each other.
 ORDER = [line.split() for line in """
 sdk/include/fulmar
 sdk/include/fulmar/flight/math
@@ -79,7 +79,7 @@ for file, targets in includes.items():
 
 
 def unit(file):
-    """A header, the source beside it and `_impl`, the definitions that its templates or its sources share, are one."""
+    """A header, its source and `_impl`, the definitions that its templates or its sources share, are one unit."""
     return file.rsplit(".", 1)[0].removesuffix("_impl")
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""layers.py finds what stands in the wrong order: each fault is put into a small tree of its own."""
+"""layers.py finds each wrong order: every fault is put into a separate small tree."""
 import pathlib
 import shutil
 import subprocess

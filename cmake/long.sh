@@ -6,11 +6,11 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 export FULMAR_LONG=1
 
-# Every source file compiles by itself, with what it includes itself.
+# Every source file compiles alone, with its own includes.
 source cmake/setup.sh
 configure_and_build build-single -DFULMAR_TESTS=ON -DFULMAR_UNITE=OFF -DCMAKE_BUILD_TYPE=Debug -- all benches >build/check/single.log 2>&1 || { tail -n 60 build/check/single.log; exit 1; }
 
-# The tests of several threads under the thread sanitizer. Programs that they start tell of a race in files of their own.
+# The tests of several threads under the thread sanitizer. Programs that they start write their reports to separate files.
 threads() {
   local reports
   reports=$(mktemp -d)

@@ -28,7 +28,7 @@ $fulmar log compare "$scratch/two_filters.mcap" >"$scratch/compare.txt"
 grep -q "^error against /vehicle/truth  *nav " "$scratch/compare.txt" || { cat "$scratch/compare.txt"; exit 1; }
 grep "NEES of 9" "$scratch/compare.txt"
 
-# the recorded flight: without its folder one sentence; with it, where it is beside the product, as any other
+# the recorded flight: without its folder one message; with it, if present, as any other
 mission=configs/missions/sensor_log.yaml
 code=0; $fulmar check $mission 2>"$scratch/sensor_log.txt" || code=$?
 expect "sensor_log without a folder" "$code $(wc -l <"$scratch/sensor_log.txt")" "4 1"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The test programs of a build with drawn faults in it: what each is compiled of, what the compiler refuses, and
-which program notices which fault."""
+"""The test programs of a build with drawn faults: the files of each, the faults that the compiler rejects, and
+the program that detects each fault."""
 import concurrent.futures
 import json
 import os
@@ -16,7 +16,7 @@ TIMES, LEAST_S = 10, 30  # of a run without a fault: who needs longer hangs, whi
 
 
 class Includes:
-    """The files of the tree that a source reads, itself among them."""
+    """The files of the tree that a source reads, including itself."""
 
     def __init__(self, tree):
         self.tree = tree
@@ -50,7 +50,7 @@ class Includes:
 
 
 def edges(text):
-    """Of a build.ninja: output -> what it is made of, without what only has to be there before."""
+    """Of a build.ninja: output -> its inputs, without order-only ones."""
     made = {}
     for line in text.replace("$\n", "").split("\n"):
         m = re.match(r"build ((?:\$.|[^:$])+): \S+ ?(.*)", line)
@@ -62,7 +62,7 @@ def edges(text):
 
 
 def sources_of(output, made):
-    """The compiled sources that stand in a program, those of its libraries among them."""
+    """The compiled sources of a program, with those of its libraries."""
     found, seen, left = set(), set(), [output]
     while left:
         now = left.pop()
@@ -77,7 +77,7 @@ def sources_of(output, made):
 
 
 def compiled_of(out, tree):
-    """Each test program: the files of the tree that it is compiled of."""
+    """Each test program: the files of the tree that it is compiled from."""
     made = edges((out / "build.ninja").read_text())
     includes = Includes(tree)
     programs = {}
@@ -92,14 +92,14 @@ def compiled_of(out, tree):
 
 
 def places_in(output, tree):
-    """What the compiler's messages name of the tree: (path, line)."""
+    """Places of the tree in the compiler's messages: (path, line)."""
     prefix = str(tree) + "/"
     return {(m.group(1)[len(prefix):], int(m.group(2))) for m in PLACE.finditer(output)
             if m.group(1).startswith(prefix)}
 
 
 def refused_places(out, tree, wanted, programs, jobs):
-    """The front end over as few sources as read all of `wanted`."""
+    """Runs the front end for as few sources as include all of `wanted`."""
     includes = Includes(tree)
     made = edges((out / "build.ninja").read_text())
     used = {os.path.normpath(out / s) for name in programs for s in sources_of("bin/" + name, made)}
@@ -142,7 +142,7 @@ def run(program, folder, limit_s, mutant=0):
 
 
 def judge(drawn, programs, folder, enough_percent, jobs):
-    """Which fault is noticed by which test; 1 when they are too few."""
+    """Test that detects each fault; returns 1 when too few are detected."""
     took_s = {}
     for name in sorted(programs):
         begin = time.monotonic()

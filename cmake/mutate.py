@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Do the tests notice a fault? Builds the test programs once with every fault of cmake/mutants.txt in them, each
+"""Checks that the tests detect faults. Builds the test programs once with every fault of cmake/mutants.txt, each
 switched on by FULMAR_MUTANT, and runs the programs that cover a fault. Ends with 1 when too few are noticed.
 
     cmake/mutate.py [--folder FOLDER] [--jobs N] [ID...]
@@ -101,7 +101,7 @@ def mutated(chosen):
 
 
 def write(path, content, mode=0o644):
-    """Only what has changed, so that little is built again."""
+    """Writes only changed files, so that little is built again."""
     if path.exists() and path.read_bytes() == content:
         return
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -127,7 +127,7 @@ def configure(folder, texts, log):
 
 
 def ninja(out, jobs, targets, log):
-    """All that can be built: whether it is all."""
+    """Builds as much as possible; returns True when all of it was built."""
     command = ["ninja", "-C", out, "-k", "0", "-j", str(jobs), *targets]
     return subprocess.run(command, stdout=log, stderr=log).returncode == 0
 
@@ -143,7 +143,7 @@ def build(folder, jobs, chosen, known):
 
 
 def passes(bin_folder, program, folder, mutant="0"):
-    """`program` or `program@part`: the tests of the source files whose name contains `part`."""
+    """`program` or `program@part`: the tests of the source files with `part` in their names."""
     name, _, part = program.partition("@")
     command = [bin_folder / name, "--abort-after=1"] + ([f"--source-file=*{part}*"] if part else [])
     try:
@@ -172,7 +172,7 @@ def draw(given):
 
 
 def build_drawn(folder, drawing, given, log):
-    """The programs with the faults in them: name -> the files of the tree that it is compiled of."""
+    """The programs with the faults: name -> the files of the tree that it is compiled from."""
     refused = None
     for _ in range(ROUNDS):
         out = configure(folder, drawing.texts(), log)
@@ -180,7 +180,7 @@ def build_drawn(folder, drawing, given, log):
         wanted = {path for path, _ in drawing.taken.values()}
         programs = {name: files for name, files in compiled.items()
                     if files & wanted and (not given.programs or name in given.programs)}
-        # First the compiler's front end alone, over as few sources as hold all faults.
+        # First the compiler's front end alone, for as few sources as hold all faults.
         places = mutant_programs.refused_places(out, folder / "tree", wanted, programs, given.jobs)
         if not places:
             begin = log.tell()

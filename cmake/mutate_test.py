@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""mutate.py draws faults where flight code can have them, the same for a seed, and can put each of them in."""
+"""mutate.py draws faults in flight code, the same ones for a seed, and can put each of them in."""
 import pathlib
 import tempfile
 import unittest

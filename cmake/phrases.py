@@ -20,7 +20,7 @@ message = re.compile(r"\b[a-z]\w*(?:\.[a-z]\w*)+(?:\([^\n]*\)?)?")
 
 
 def end_of(source, begin):
-    """The place behind the bracket that closes the one before `begin`."""
+    """The place after the bracket that closes the one before `begin`."""
     depth, i = 1, begin
     while i < len(source) and depth:
         if source[i] == '"':

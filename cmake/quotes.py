@@ -47,7 +47,7 @@ def parts_of(block):
 
 
 def place(part, source, begin):
-    """(index behind the first copy of `part` in `source` from `begin`, or None; the most lines of `part` that match anywhere)."""
+    """(index after the first copy of `part` in `source` from `begin`, or None; largest number of lines of `part` that match anywhere)."""
     most = 0
     for start in range(begin, len(source)):
         same = 0

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""quotes.py accepts a quote that its source holds, and reports the first line that it does not hold."""
+"""quotes.py accepts a quote that its source holds, and reports the first line that is not in the source."""
 import contextlib
 import io
 import pathlib

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""From the pages of `fulmar inspect --markdown` in a folder: an index, and one page of all messages with the words of their headers.
+"""Writes an index of the pages of `fulmar inspect --markdown` in a folder, and one page of all messages with the comments of their headers.
 
   cmake/reference.py FOLDER MISSION.yaml... -- HEADER.hpp...
 """
@@ -56,7 +56,7 @@ class PluginPage:
             self.components[-1].tables[sub] = table
 
     def faults(self):
-        """What says nothing of itself."""
+        """Items without a description."""
         for component in self.components:
             where = f"{self.name}/{component.name}"
             if not component.doc:
@@ -72,7 +72,7 @@ class Struct:
 
 
 def structs_of(text):
-    """Structs of a header with what /// and ///< say."""
+    """Structs of a header with their /// and ///< comments."""
     found, doc, open_struct, last = {}, [], None, []
     for line in text.splitlines():
         start = re.match(r"struct (\w+)( \{.*)?$", line)
@@ -109,7 +109,7 @@ def take_fields(struct, line):
 
 
 def words_of(structs, type_name, path):
-    """What the header says of the field `path` of a message, else of the struct's field that it stands in."""
+    """The comment of the field `path` of a message, else of the struct's field that holds it."""
     found = ""
     for part in path.replace("[]", "").split("."):
         struct = structs.get(type_name)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The reference: what is read from pages and headers, and that silence is noticed. Needs no build."""
+"""The reference is read from pages and headers, and a missing description is reported. Needs no build."""
 import contextlib
 import io
 import pathlib

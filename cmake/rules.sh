@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# What the code base promises of itself and a grep can see.
+# Rules of the code base that a grep can check.
 set -u
 shopt -s lastpipe  # `refuse` at the end of a pipe is this shell: what it notes is still there at the end
 cd "$(dirname "$0")/.."
@@ -34,7 +34,7 @@ git grep -nIE '\b(TODO|FIXME|XXX|HACK|TEMPORARY)\b' -- '*.cpp' '*.hpp' '*.h' '*.
 for file in $(git ls-files '*.cpp' '*.hpp' '*.h' '*.c' '*.sh' '*.cmake' '*CMakeLists.txt' '*.mjs'); do
   head -n 3 "$file" | grep -q 'SPDX-License-Identifier: BSD-3-Clause' || echo "$file"
 done | refuse "Every source file names its licence:"
-# The files of a folder are compiled together: of two helpers with one name, each in an unnamed namespace, the wrong one would be called in silence.
+# The files of a folder are compiled together: of two helpers with one name, each in an unnamed namespace, the wrong one could be called without a report.
 for folder in $(git ls-files 'core/*.cpp' 'links/*.cpp' 'tools/*.cpp' 'plugins/*.cpp' | grep -v '/test/' | xargs -n 1 dirname | sort -u); do
   for file in $(git ls-files "$folder/*.cpp" | grep -E "^$folder/[^/]+$"); do
     sed -nE 's/^([A-Za-z_][A-Za-z0-9_:<>,&* ]*[ &*])([a-z_][a-z0-9_]*)\(.*/\2/p; s/^(struct|class|enum class|enum) ([A-Za-z0-9_]+).*\{.*/\2/p' "$file" |
@@ -43,7 +43,7 @@ for folder in $(git ls-files 'core/*.cpp' 'links/*.cpp' 'tools/*.cpp' 'plugins/*
 done | refuse "A name is given once in a folder:"
 python3 cmake/prose.py >/dev/null || python3 cmake/prose.py | refuse "Texts break docs/style.md:"
 python3 cmake/mutate.py --only-list 2>&1 | refuse "Each listed fault has a place of its own:"
-# Subjects of commits since the first one that this rule is asked of: `area: verb what`. A clone without it, a shallow one, has nothing to ask.
+# Subjects of commits since the first one under this rule: `area: verb what`. A shallow clone without that commit skips the check.
 first=d2c08a6718df44440e1e08a9b19a3b70e239fb27
 if git merge-base --is-ancestor "$first" HEAD 2>/dev/null; then
   git log --no-merges --format='%h %s' "$first..HEAD" | grep -vE '^[0-9a-f]+ [a-z0-9_./-]+(, [a-z0-9_./-]+)*: [a-z][^ ]* .' |

@@ -7,13 +7,13 @@ packages=(g++ cmake ninja-build ccache libeigen3-dev libboost-dev libyaml-cpp-de
 # Without these the plugin for Python and its module are left out.
 python_packages=(python3 python3-dev pybind11-dev python3-numpy)
 
-# The page of a running flight and components in Python need these; without them all else is there.
+# The page of a running flight and components in Python need these; without them all other parts are built.
 install_optional_packages() {
   command -v npm >/dev/null || ( install_missing nodejs npm ) || echo "No nodejs and npm: Fulmar is built without the page of a flight." >&2
   ( install_missing "${python_packages[@]}" ) || echo "Without ${python_packages[*]} Fulmar is built without components in Python." >&2
 }
 
-# Installs those of the named packages that are missing. Needs root or sudo only when there is something to install.
+# Installs the missing ones of the named packages. Needs root or sudo only for an installation.
 install_missing() {
   local missing=()
   for package in "$@"; do
@@ -51,15 +51,15 @@ configure_and_build() {
   NINJA_STATUS="[%f/%t, %e s] " ninja -C "$folder" "${targets[@]}"
 }
 
-# What the hourglass mission needs: the host and the plugins that it names.
+# Targets of the hourglass mission: the host and its plugins.
 build_first() {
   configure_and_build build -- first_flight
 }
 
-# What the build leaves out, each with the packages that it needs; empty where it leaves out nothing.
+# Parts that the build leaves out, each with its missing packages; empty for none.
 left_out() { grep -hE 'is left out: |^-- No page of the flight: ' build/configure.log | sed 's/^-- //'; }
 
-# All that flies and the programs for the ground, without tests. Configures again where packages were missing: they may be there now.
+# All plugins and the programs for the ground, without tests. Configures again where packages were missing: they may be installed now.
 build_rest() {
   if left_out >/dev/null; then cmake -S . -B build >build/configure.log 2>&1 || { cat build/configure.log; return 1; }; fi
   configure_and_build build -- flight tools || return

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Test cases that are gone since a revision, and how many were added: a redesign guards what was guarded before.
+"""Test cases that were removed since a revision, and the number of added ones, to check a redesign.
 
     test_cases.py REV [REV]      exit code 1 when one is gone; the second revision is HEAD unless given
 """

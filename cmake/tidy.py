@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""clang-tidy over the sources of host and plugins, as `.clang-tidy` says, in the batches in which they are compiled.
+"""Runs clang-tidy on the sources of host and plugins, with `.clang-tidy`, in the batches in which they are compiled.
 
     tidy.py [BUILD] [--tools]      BUILD (build) has been configured and built; --tools: the programs beside the host as well
 
@@ -23,7 +23,7 @@ stamps.mkdir(exist_ok=True)
 
 
 def read_files():
-    """What each object was made of, as the compiler told ninja: {object: [files of the project]}."""
+    """The sources of each object, from the depfiles of ninja: {object: [files of the project]}."""
     files, current = {}, []
     for line in subprocess.run(["ninja", "-t", "deps"], cwd=build, capture_output=True, text=True, check=True).stdout.splitlines():
         if line and not line.startswith(" "):
@@ -39,13 +39,13 @@ def output(entry):
 
 
 def wanted(entry):
-    """Host, plugins and examples; tests and benches are held by their compilers alone."""
+    """Host, plugins and examples; tests and benches are checked by their compilers alone."""
     out = output(entry)
     return out.split("/")[0] in ("core", "links", "plugins", "examples", *["tools"] * with_tools) and "/test" not in out and "_test.dir" not in out and "/abi_1" not in out
 
 
 def look(entry, digest):
-    """clang-tidy's words about one batch; "" when there are none."""
+    """Output of clang-tidy for one batch; "" for none."""
     words = [w for w in entry["command"].split() if w not in ("-Wno-subobject-linkage", "-fno-gnu-unique") and not w.startswith("--param=")]  # gcc's own
     words = words[next(i for i, w in enumerate(words) if w.startswith(("-D", "-I", "-isystem"))):]  # behind launcher and compiler
     words = [w.replace('\\"', '"') for w in words[:words.index("-o")]]

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Does what a page of the documentation tells its reader to do, and compares what comes out with what the page says.
+"""Runs the commands of a page of the documentation, and compares their output with that on the page.
 
   cmake/tutorials.py [--prefix PREFIX | --build BUILD] [--update] [PAGE.md...]
 
@@ -47,7 +47,7 @@ REFUSED = re.compile(r"^<!-- refused: (\S+) -->$")
 
 
 class Mismatch(Exception):
-    """What a page says and what happens are not the same. The text begins with file:line."""
+    """A page and the output differ. The text begins with file:line."""
 
 
 # ---- reading a page ---------------------------------------------------------------------------------------------------------------
@@ -107,7 +107,7 @@ def commands_of(block):
 
 
 def pattern_of(expected, tolerance):
-    """Regular expression of an expected line; its groups are the numbers to be looked at."""
+    """Regular expression of an expected line; its groups are the compared numbers."""
     tokens = re.split(r"(\.\.\.|\s+|" + NUMBER + ")", expected.strip())
     out = ""
     for token in tokens:
@@ -136,7 +136,7 @@ def same_line(expected, actual, tolerance=0):
 
 
 def reach(expected, actual, tolerance):
-    """For each number of expected lines: how many actual lines they may use up. Empty where they cannot."""
+    """For each number of expected lines: possible numbers of actual lines. Empty for none."""
     steps = [{0}]
     for line in expected:
         if line.strip() == "...":
@@ -151,7 +151,7 @@ def same_output(expected, actual, tolerance=0):
 
 
 def renewed(expected, actual, tolerance):
-    """The expected lines with the numbers of the actual ones where these are out of tolerance. None where more than numbers differ."""
+    """The expected lines with the actual numbers where these are out of tolerance. None when more than numbers differ."""
     steps = reach(expected, actual, math.inf)
     if len(actual) not in steps[-1]:
         return None
@@ -168,7 +168,7 @@ def renewed(expected, actual, tolerance):
 
 
 def difference(expected, actual, tolerance):
-    """The first expected line that is not there, with what stands in its place."""
+    """The first missing line, with the line in its place."""
     steps = reach(expected, actual, tolerance)
     lost = next((i for i, step in enumerate(steps) if not step), None)
     if lost is None:
@@ -181,11 +181,11 @@ def difference(expected, actual, tolerance):
     return "\n".join([" " + text for text in actual[max(0, begin - 2) : begin]] + ["-" + line] + ["+" + text for text in rest[:10]])
 
 
-# ---- doing what the page says --------------------------------------------------------------------------------------------------------
+# ---- running the commands of a page ------------------------------------------------------------------------------------------------
 
 
 def as_seen(raw):
-    """Lines as a terminal shows them in the end: colours dropped, lines that were drawn anew in their last state."""
+    """The final state of the lines on a terminal: without colours, redrawn lines in their last state."""
     lines = []
     for line in raw.decode("utf-8", "replace").replace("\r\n", "\n").split("\n"):
         shown = ""
@@ -198,7 +198,7 @@ def as_seen(raw):
 
 
 class Job:
-    """A command on a terminal of its own."""
+    """A command on a separate terminal."""
 
     def __init__(self, script, folder, environment):
         self.ours, theirs = pty.openpty()
@@ -209,7 +209,7 @@ class Job:
         self.raw, self.open = b"", True
 
     def pump(self):
-        """Takes what has come. False when the command has ended and all that it said is here."""
+        """Reads the present output. False when the command has ended and all its output is read."""
         ended = self.child.poll() is not None
         if not select.select([self.ours], [], [], 0.02)[0]:
             return not ended  # what still runs in the background keeps the terminal open
@@ -223,7 +223,7 @@ class Job:
         return bool(piece)
 
     def close(self):
-        """Ends it and all that it has started."""
+        """Ends the command and all its children."""
         if not self.open:
             return
         self.open = False
@@ -236,7 +236,7 @@ class Job:
 
 
 class Terminal:
-    """Commands in one folder after another, as a person types them: the folder and exported variables stay."""
+    """Commands in one folder after another, as typed by a user: the folder and exported variables stay."""
 
     def __init__(self, home, prefix, limit_s):
         self.home, self.limit_s = home, limit_s
@@ -277,7 +277,7 @@ class Terminal:
 
 
 def patched(text, lines):
-    """`text` with what the lines of a diff say; what they replace must be there once."""
+    """`text` with the lines of a diff applied; replaced lines must be there exactly once."""
     old = "".join(line[1:] + "\n" for line in lines if line[:1] != "+")
     new = "".join(line[1:] + "\n" for line in lines if line[:1] != "-")
     if text.count(old) != 1:
@@ -333,7 +333,7 @@ class Page:
             self.fail(line, f"$ {command}\nends with exit code {actual_code}, not {code}\n" + "\n".join(actual[-20:]))
 
     def renew(self, line, command, expected, actual, tolerance):
-        """With --update: writes the numbers, or the drawing, of today into the page. False when that is not what differs."""
+        """With --update: writes the present numbers, or the drawing, into the page. False for other differences."""
         drawing = re.search(r" -o (\S+) --like (\S+)$", command)
         if self.update and drawing:
             shutil.copy(self.terminal.folder / drawing[1], pathlib.Path(self.path).parent / drawing[2])
@@ -395,8 +395,8 @@ class Page:
 
 
 def do_page(path, prefix, given):
-    """What went wrong, or ""."""
-    # Beside the prefix, so that the path from one to the other is the same in each run: ccache keeps what was compiled.
+    """The fault, or ""."""
+    # In the folder of the prefix, so that the path from one to the other is the same in each run: ccache then finds the compiled files.
     home = pathlib.Path(tempfile.mkdtemp(prefix="fulmar-page-", dir=None if given.keep else given.homes))
     terminal = Terminal(home, prefix, given.limit)
     page, begin, fault = Page(path, terminal, given), time.monotonic(), ""
@@ -420,7 +420,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
 def default_pages():
-    """All pages; those that compile most begin first, so that none of them is left alone at the end."""
+    """Runs all pages; those that compile most begin first, so that none of them is left alone at the end."""
     pages = [*(ROOT / "docs" / f"{name}.md" for name in ("missions", "live", "viewers", "logs", "ros2", "many-flights", "vehicles", "aero", "aircraft", "by_hand", "tour")),
              *sorted((ROOT / "docs/tutorial").glob("[0-9]-*.md")), *sorted((ROOT / "examples").glob("*/README.md"))]
     return sorted(pages, key=lambda page: -page.read_text().count("cmake --build"))

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The runner of the documentation notices what is wrong. Needs no build: a stand-in takes the place of Fulmar."""
+"""The runner of the documentation reports each difference. Needs no build: a stand-in replaces Fulmar."""
 import contextlib
 import io
 import pathlib
@@ -18,7 +18,7 @@ class Pages(unittest.TestCase):
         self.folder = pathlib.Path(scratch.name)
         stand_in = self.folder / "prefix/bin/fulmar"
         stand_in.parent.mkdir(parents=True)
-        # `fulmar check FILE [options]`: one fault per line that has the word bad, and one per option
+        # `fulmar check FILE [options]`: one fault per line with the word bad, and one per option
         stand_in.write_text('#!/bin/sh\nshift; grep -n bad "$1" | sed "s/:.*/: is bad/; s/^/$1:/"; f=$?; shift\n'
                             '[ $# -gt 0 ] && echo "$1 is not understood"; exit 4\n')
         stand_in.chmod(0o755)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the author of a component in Python imports: messages, ports, parameters, status.
+"""Messages, ports, parameters and status for components in Python.
 
     import fulmar_plugin as f
 
@@ -9,7 +9,7 @@
         class Params:  course_kp = f.Param(1.2, "rad/rad", 0, 5, "roll per course error")
         def step(self, tick, inp, p, out): ...
 
-The module is made by the plugin `python`, which hosts scripts; names that begin with _ belong to it.
+The plugin `python`, which hosts scripts, makes this module; names that begin with _ are internal.
 """
 import collections
 import ctypes
@@ -19,7 +19,7 @@ from ctypes import c_bool, c_char, c_double, c_int64, c_uint8, c_uint32, c_uint6
 
 from fulmar_plugin_texts import choices as _choices, text as _text
 
-unknown_std = 1e9  # deviation of what nobody knows
+unknown_std = 1e9  # unknown standard deviation
 
 
 class Status(enum.IntEnum):
@@ -41,7 +41,7 @@ def clamp(x, low, high):
 
 
 class DeclarationError(Exception):
-    """A component or message that cannot be; `path` leads to it: ("MyLaw", "Inputs", "state")."""
+    """An invalid component or message; `path` leads to it: ("MyLaw", "Inputs", "state")."""
 
     def __init__(self, path, sentence):
         super().__init__(".".join(path) + ": " + sentence)
@@ -78,7 +78,7 @@ class Array:
 
 
 class List:
-    """In a message: at most `capacity` items; only those that are there are logged and sent."""
+    """In a message: at most `capacity` items; only `count` items are logged and sent."""
 
     def __init__(self, element, capacity):
         self.element, self.count = element, capacity
@@ -109,7 +109,7 @@ class _Items(ctypes.Structure):
         self.count = 0
 
     def numpy(self):
-        """The items that are there, as a view."""
+        """The first `count` items, as a view."""
         import numpy
         return numpy.ctypeslib.as_array(self.items)[:self.count]
 
@@ -131,7 +131,7 @@ class _MessageType(type(ctypes.Structure)):
 
 
 class Message(ctypes.Structure, metaclass=_MessageType):
-    """Base of every message. Yours: class Wobble(f.Message): amplitude_rad: float = 0.1"""
+    """Base of every message. Example: class Wobble(f.Message): amplitude_rad: float = 0.1"""
     _initial = b""
 
     def __init__(self, *values, **named):
@@ -139,13 +139,13 @@ class Message(ctypes.Structure, metaclass=_MessageType):
         super().__init__(*values, **named)
 
     def copy(self):
-        """A message of its own: what a port shows changes with the next sample."""
+        """A separate message: the message of a port changes with the next sample."""
         other = self._message()
         ctypes.memmove(ctypes.addressof(other), ctypes.addressof(self), ctypes.sizeof(other))
         return other
 
     def set(self, other):
-        """Takes over every field of a message of the same type, or the elements of a sequence."""
+        """Copies every field of a message of the same type, or the elements of a sequence."""
         if isinstance(other, self._message):
             ctypes.memmove(ctypes.addressof(self), ctypes.addressof(other), ctypes.sizeof(self._message))
         else:
@@ -174,7 +174,7 @@ class Message(ctypes.Structure, metaclass=_MessageType):
 
 
 def _raw(field):
-    """A text lies under another name than the property that turns it into str."""
+    """A text is stored under another name than the property that converts it to str."""
     return "_" + field.name if field.kind == _TEXT else field.name
 
 
@@ -188,7 +188,7 @@ def _text_property(name, size):
 
 
 def _body(fields):
-    """Class body of a message: ctypes fields, text properties, one enum per field of words: Path.Kind.orbit."""
+    """Class body of a message: ctypes fields, text properties, one enum per enumerated field: Path.Kind.orbit."""
     body = {"_fields_": [], "_described_": [f for f, _ in fields]}
     for field, element in fields:
         ctype = element.ctype
@@ -207,7 +207,7 @@ def _body(fields):
 
 
 def _declare(name, body):
-    """From the annotations of a class to fields, by the rules of C++ messages."""
+    """Converts the annotations of a class to fields, by the rules of C++ messages."""
     foreign = isinstance(body.get("ros_type"), str)
     annotations = body.pop("__annotations__", {})
     if not annotations:
@@ -247,7 +247,7 @@ def _element(path, kind):
 
 
 def _unit(path, element, needed):
-    """(unit, min, max) by the suffix of the name."""
+    """(unit, min, max) for the suffix of the name."""
     name = path[-1]
     for suffix, printed, low, high in _units:
         if name.endswith(suffix) and len(name) > len(suffix):
@@ -260,7 +260,7 @@ def _unit(path, element, needed):
 
 
 def _initial(cls, defaults):
-    """The bytes of a new message: defaults of its own, and of the messages in it."""
+    """The bytes of a new message: its defaults, and those of its nested messages."""
     buffer = bytearray(ctypes.sizeof(cls))
     for f in cls._described:
         if f.type:
@@ -275,7 +275,7 @@ _shared = {}
 
 
 def _share(tables):
-    """Makes the classes of the messages that come with the plugin. `tables`: dicts, a nested type before what holds it."""
+    """Makes the classes of the messages of the plugin. `tables`: dicts, a nested type before the type that holds it."""
     classes = []
     for t in tables:
         fields = []
@@ -319,7 +319,7 @@ class _Port:
 
 
 class In(_Port):
-    """The latest sample: inp.state.roll_rad, .fresh, .stale, .age_s, .valid_at_ns, .sequence. There is one whenever step is called."""
+    """The latest sample: inp.state.roll_rad, .fresh, .stale, .age_s, .valid_at_ns, .sequence. It exists whenever step is called."""
     kind = 1
 
 
@@ -337,7 +337,7 @@ class Queue(_Port):
 
 
 class Request(Queue):
-    """Questions, each answered in the step that sees it: for ask in inp.edit: ask.accept() or ask.refuse("no such waypoint")."""
+    """Requests, each answered in the step that reads it: for ask in inp.edit: ask.accept() or ask.refuse("no such waypoint")."""
     kind = 3
 
     def __init__(self, message, capacity=16):
@@ -350,7 +350,7 @@ class Out(_Port):
 
 
 class Event(_Port):
-    """May stay silent: out.plan.publish(plan), out.plan.publish(plan, valid_at_ns), or fill it and out.plan.publish()."""
+    """May be left unpublished: out.plan.publish(plan), out.plan.publish(plan, valid_at_ns), or fill it and call out.plan.publish()."""
     kind = 18
 
 
@@ -363,7 +363,7 @@ class OutQueue(_Port):
 
 
 class Probe:
-    """One number to look at: out.roll_error_rad = e. Its name ends in its unit."""
+    """One number for the log: out.roll_error_rad = e. Its name ends in its unit."""
     kind, flags, capacity, message = 20, 0, 1, None
 
 
@@ -373,7 +373,7 @@ _REQUIRED, _LIVE = 2, 1
 
 
 class _Param:
-    """What every parameter tells the host, as far as its kind does not say otherwise."""
+    """Common properties of all parameters, as far as their kind does not override them."""
     unit, text, choices, type, capacity, data, low, high = "", "", [], None, 0, None, 0.0, 0.0
     initial = (0.0, 0.0, 0.0)
 
@@ -407,7 +407,7 @@ class Count(_Param):
 
 
 class Choice(_Param):
-    """One of some words: Choice("hold", ["hold", "takeoff"]); p.law == "hold"."""
+    """One of several names: Choice("hold", ["hold", "takeoff"]); p.law == "hold"."""
     kind = 4
 
     def __init__(self, value, choices, doc="", setup=False):

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the plugin does in Python: opens a script, describes its components, makes their instances, explains their exceptions.
+"""Python side of the plugin: opens a script, describes its components, makes their instances, explains their exceptions.
 
-Ports live in ctypes structures at fixed addresses. The plugin copies samples in before a call and results out after it; Python reads and
-writes memory and makes no object for it. What follows a message there (_META, ...) has the layout of the structs in instance.hpp.
+Ports are ctypes structures at fixed addresses. The plugin copies samples in before a call and results out after it; Python reads and
+writes this memory without new objects. The data behind a message (_META, ...) has the layout of the structs in instance.hpp.
 """
 import ast
 import collections
@@ -34,7 +34,7 @@ class _Head(ctypes.Structure):
 
 
 def _view(message, meta, members):
-    """A message with what the port knows of the sample behind it. A field of the message of the same name wins: fresh is then fresh_."""
+    """A message with the port's properties of its sample. A field of the message of the same name has priority: fresh is then fresh_."""
     names = {d.name for d in message._described}
     fields = [(name + "_" if name in names else name, kind) for name, kind in meta]
     view = type(f.Message)(message.__name__, (message,), {"__slots__": ("_array",), "_fields_": fields, **members})
@@ -42,7 +42,7 @@ def _view(message, meta, members):
 
 
 def _cached_numpy(self):
-    """The view of a port's message: made once, it shows every sample."""
+    """The view of a port's message: made once, valid for every sample."""
     try:
         return self._array
     except AttributeError:
@@ -55,7 +55,7 @@ def _accept(self):
 
 
 def _fitting(words, room):
-    """As fit_words() of the SDK: what does not fit ends in dots behind a whole word or character."""
+    """As fit_words() of the SDK: a text that does not fit ends in dots after a whole word or character."""
     if len(words) < room:
         return words
     cut = words[: room - 4].decode(errors="ignore")
@@ -78,7 +78,7 @@ def _publish(self, message=None, valid_at_ns=None):
 
 
 class _InQueue:
-    """The samples since the last step, oldest first. They are views: copy() what is to be kept."""
+    """The samples since the last step, oldest first. They are views: copy() a sample to keep it."""
     __slots__ = ("_head", "_items", "_views")
 
     def __len__(self):
@@ -92,7 +92,7 @@ class _InQueue:
 
     @property
     def lost(self):
-        """Samples that found no room since the last step."""
+        """Number of samples without room since the last step."""
         return self._head.lost
 
 
@@ -100,7 +100,7 @@ class _OutQueue:
     __slots__ = ("_head", "_items", "_stamps", "_tick")
 
     def push(self, message, valid_at_ns=None):
-        """False when there is no room; the loss is counted and told to the reader."""
+        """False without room; the loss is counted and reported to the reader."""
         n = self._head.count
         if n == len(self._items):
             self._head.lost += 1
@@ -124,7 +124,7 @@ _Described = collections.namedtuple("_Described", "cls name doc inputs outputs p
 
 
 def _members(cls, inner, kinds, what):
-    """The declarations of an inner class, those of its bases first. None when there is no such class."""
+    """The declarations of an inner class, those of its bases first. None without such a class."""
     holder = getattr(cls, inner, None)
     if holder is None:
         return {}
@@ -192,11 +192,11 @@ def _components(module, name):
 # ---- opening -------------------------------------------------------------------------------------------------------------------
 
 _opened = 0
-_siblings = {}  # module -> what its file was when it was imported
+_siblings = {}  # module -> state of its file at the import
 
 
 def _forget_changed(folder):
-    """Modules beside the script are imported anew when their file has changed."""
+    """Modules in the folder of the script are imported again when their file has changed."""
     for name, was in list(_siblings.items()):
         module = sys.modules.get(name)
         if module is None or _file_state(module) != was:
@@ -220,14 +220,14 @@ def _remember(folder):
 
 
 def _open(file, text):
-    """Runs the script in a module of its own. -> (module, components, version)"""
+    """Runs the script in a separate module. -> (module, components, version)"""
     global _opened
     _opened += 1
     name, folder = os.path.basename(file), os.path.dirname(file)
     _forget_changed(folder)
     module = types.ModuleType(f"fulmar_script_{_opened}_{os.path.splitext(name)[0]}")
     module.__file__ = file
-    sys.modules[module.__name__] = module  # dataclasses, pickle and enum look there
+    sys.modules[module.__name__] = module  # dataclasses, pickle and enum search there
     source = text.decode(errors="replace")
     linecache.cache[file] = len(source), None, source.splitlines(keepends=True), file
     if folder not in sys.path:
@@ -252,7 +252,7 @@ _METHODS = ("step", "read", "write", "configure", "retune", "activate", "deactiv
 
 
 class _Instance:
-    """What the plugin holds of a component: its object, the arguments of its calls, and where their memory lies."""
+    """The plugin's data of a component: its object, the arguments of its calls, and the addresses of their memory."""
 
 
 def _address(thing):
@@ -260,7 +260,7 @@ def _address(thing):
 
 
 def _input(kind, capacity, message):
-    """-> (object for the author, what keeps memory alive, numbers for the plugin)"""
+    """-> (object for the author, owner of the memory, numbers for the plugin)"""
     size = ctypes.sizeof(message)
     if kind == f.In.kind:
         present = "present_" if any(d.name == "present" for d in message._described) else "present"
@@ -353,14 +353,14 @@ def _make(described, seed):
 
 
 def _settle():
-    """After set-up: what is there now stays, the collector need not look at it in flight. What flights before left behind goes."""
+    """After set-up: present objects stay, and the collector need not scan them in flight. Objects of former flights are collected."""
     gc.unfreeze()
     gc.collect()
     gc.freeze()
 
 
 def _rebound(out, name, own):
-    """The author wrote `out.name = message` in place of filling the message that is there."""
+    """The author assigned `out.name = message`: fills the message of the output."""
     given = getattr(out, name)
     setattr(out, name, own)
     if isinstance(own, f.Message) and isinstance(given, own._message):
@@ -375,7 +375,7 @@ def _rebound(out, name, own):
 # ---- faults --------------------------------------------------------------------------------------------------------------------
 
 def _declared_at(source, path):
-    """The line where a declaration stands: ("MyLaw", "Inputs", "state")."""
+    """The line of a declaration: ("MyLaw", "Inputs", "state")."""
     body, line = ast.parse(source).body, 0
     for word in path:
         for node in body:

@@ -30,7 +30,7 @@ def text(code, *values):
 
 
 def choices(name, valid):
-    """Behind the sentence of an unknown name: the nearest one, and all of them."""
+    """End of the message of an unknown name: the nearest name, and all names."""
     near = difflib.get_close_matches(name, valid, 1)
     if _writes_codes:
         return f" [{near[0] if near else ''}] " + ", ".join(valid)

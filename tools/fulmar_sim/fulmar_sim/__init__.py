@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The aircraft that `sim_aero` flies, without host and mission: one, or thousands in one call.
+"""The aircraft of `sim_aero` without host and mission: one, or thousands in one call.
 
     import fulmar_sim
 
@@ -21,7 +21,7 @@ __all__ = ["Error", "Simulation"]
 
 
 class Error(ValueError):
-    """What is wrong, in a sentence; of a file with its name and line. Nothing has moved."""
+    """An error, in one sentence; for a file with its name and line. The state has not changed."""
 
 
 # The messages of the Python side: code and sentence.
@@ -43,7 +43,7 @@ _TEXTS = {
 
 
 def _sentence(code, *values):
-    """The sentence of a message; with FULMAR_MESSAGES=codes simulation.code(value, ...), as in fulmar/diagnostic.hpp."""
+    """The text of a message; with FULMAR_MESSAGES=codes simulation.code(value, ...), as in fulmar/diagnostic.hpp."""
     if os.environ.get("FULMAR_MESSAGES") != "codes":
         return _TEXTS[code].format(*values)
     return f"simulation.{code}" + (f"({', '.join(map(str, values))})" if values else "")
@@ -104,7 +104,7 @@ def _number(value, what):
 
 
 def _numbers(values, what):
-    """A copy, which no other thread changes meanwhile; float64 in rows."""
+    """A copy that no other thread changes; float64 in rows."""
     try:
         given = numpy.asarray(values)
     except ValueError:  # rows that are not of one length
@@ -137,7 +137,7 @@ class Simulation:
     origin_altitude  m above sea level, of height 0; -1000 to 20000
     turbulence       "none", "light", "moderate", "severe"
 
-    Methods take `only`, the aircraft that they are for: an index, a list of them, or an array of n bools; without it all.
+    Methods take `only`, the selected aircraft: an index, a list of them, or an array of n bools; without it all.
     Rows are (n, 26), a new array each time. Columns, as `row_names` names them:
 
      0.. 2  north_m east_m down_m               from the origin
@@ -178,31 +178,31 @@ class Simulation:
 
     @property
     def n(self):
-        """How many aircraft."""
+        """Number of aircraft."""
         return self._n
 
     @property
     def state(self):
-        """The rows as they are now."""
+        """The present rows."""
         rows = numpy.empty((self._n, len(_ROWS)))
         self._call(_rows, rows.ctypes.data)
         return rows
 
     def set_state(self, rows, only=None):
-        """Sets position, velocity, attitude, body rate, surfaces and propeller of these rows (n, 26); the other columns follow from them.
-        Gusts go on, and the springs of the gear are where they were. Returns the rows."""
+        """Sets position, velocity, attitude, body rate, surfaces and propeller from these rows (n, 26); the other columns follow from them.
+        Gusts continue, and the springs of the gear keep their state. Returns the rows."""
         rows, only = self._array(rows, len(_ROWS), "rows"), self._only(only)
         self._call(_set_rows, self._data(only), rows.ctypes.data)
         return self.state
 
     def reset(self, seed=1, only=None):
-        """As made anew with this seed; the wind stays. Returns the rows."""
+        """Resets to the initial state with this seed; the wind stays. Returns the rows."""
         only = self._only(only)
         self._call(_reset, self._data(only), _whole(seed, "seed", 0, 2**64 - 1))
         return self.state
 
     def fly(self, height, airspeed, heading=0.0, only=None):
-        """Into steady level flight above the origin: height in m, airspeed in m/s, heading in rad, each one number or an array (n,).
+        """Starts steady level flight above the origin: height in m, airspeed in m/s, heading in rad, each one number or an array (n,).
         Returns the rows."""
         starts = numpy.empty((self._n, 3))
         for column, (value, what) in enumerate(((height, "height"), (airspeed, "airspeed"), (heading, "heading"))):
@@ -216,7 +216,7 @@ class Simulation:
 
     @property
     def trim(self):
-        """The actions (n, 4) that keep each aircraft in the steady flight of its last `fly`; zeros before."""
+        """The actions (n, 4) of the steady flight of each aircraft's last `fly`; zeros before."""
         actions = numpy.empty((self._n, len(_ACTIONS)))
         self._call(_trim, actions.ctypes.data)
         return actions
@@ -228,7 +228,7 @@ class Simulation:
 
     def step(self, actions, steps=1):
         """`steps` steps of `dt` under these actions, (n, 4), or (4,) for all: throttle 0 to 1; aileron, elevator, rudder in rad.
-        Surfaces and throttle go no farther than those of the aircraft. Returns the rows."""
+        Surfaces and throttle are limited to those of the aircraft. Returns the rows."""
         actions = self._array(actions, len(_ACTIONS), "actions")
         rows = numpy.empty((self._n, len(_ROWS)))
         left, most = _whole(steps, "steps", 1, 2**32 - 1), max(1, _PIECE // self._n)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""sim_test.py ROWS: the package against the headers, and what it refuses. ROWS flies the same without Python. Exit 77: numpy is not there."""
+"""sim_test.py ROWS: compares the package with the headers, and checks rejected arguments. ROWS runs the same without Python. Exit 77: no numpy."""
 import copy
 import math
 import os

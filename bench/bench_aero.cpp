@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long `fulmar aero` and `fulmar import` take, on one core, with the start of the program: the least of
-// five runs, in processor time of the program and of what it starts, and by the clock. Exits 1 when something
-// takes longer than is promised. bench_aero [--json]
+// Times of `fulmar aero` and `fulmar import` on one core, with the start of the program: the smallest of five
+// runs, in processor time of the program and its children, and in real time. Exits 1 when a time exceeds its
+// bound.
+// bench_aero [--json]
 #include <fcntl.h>
 #include <sched.h>
 #include <sys/resource.h>

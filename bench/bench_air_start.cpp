@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Does an estimator that is switched on in flight say that it knows its attitude before it does? Flies legs
-// and turns to both sides in wind and turbulence, seed after seed, with two sets of sensors that were
-// calibrated on the ground, and receivers of 1, 5 and 10 Hz that are 0.1 to 0.3 s late; the estimator is told
-// how late to 0.05 s, and begins at any time, in any bank up to 30 deg. Prints the table of
-// plugins/estimator_ekf/README.md and exits 1 when a bar is missed.
+// Checks that an estimator that starts in flight sets no validity flag before its attitude is correct. Flies
+// legs and turns to both sides in wind and turbulence with many seeds, with two sets of sensors that were
+// calibrated on the ground, and receivers of 1, 5 and 10 Hz with a delay of 0.1 to 0.3 s. The estimator gets
+// the delay with an error of up to 0.05 s, and starts at any time, at any bank up to 30 deg. Prints the table
+// of plugins/estimator_ekf/README.md and exits 1 when a bar is missed.
 // bench_air_start [--starts N] [--uncalibrated] [--each] [--json]
 #include <algorithm>
 #include <cmath>
@@ -27,12 +27,12 @@ using fulmar::navigation::Ekf;
 namespace {
 
 constexpr double deg = std::numbers::pi / 180;
-// The bars: no flag while the tilt is off by more; all flags so soon after the second fix, in this share of
-// the starts.
+// The bars: no flag while the error of the tilt is larger; all flags within this time after the second fix,
+// in this share of the starts.
 constexpr double max_tilt_rad = 5 * deg, soon_s = 1.5, share_soon = 0.95;
 constexpr double watched_s = 10;  // after the second fix
 constexpr double tick_s = 1.0 / 400;
-// What a calibration on the ground leaves of the biases, and the estimator is told.
+// Standard deviation of the biases after a calibration on the ground, as given to the estimator.
 constexpr double gyro_bias_std_radps = 0.02, accel_bias_std_mps2 = 0.1;
 
 struct Options {
@@ -47,16 +47,16 @@ struct Start {
   std::uint64_t seed = 1;
 };
 
-/// What became of one start.
+/// Results of one start.
 struct Begun {
   double valid_after_s = 1e9;  // of attitude, velocity, position and height, after the second fix
-  double first_rad = 0;        // error of the tilt when the first state came
+  double first_rad = 0;        // error of the tilt in the first state
   double tilt_rad = 0;         // largest error of the tilt while a flag is up
-  double heading_rad = 0;      // and of the heading
-  int wrong = 0;               // ticks with a flag up and a tilt that is off by more than the bar
+  double heading_rad = 0;      // largest error of the heading
+  int wrong = 0;               // number of ticks with a flag up and a tilt error above the bar
 };
 
-/// What a port of the flight says; true when it is news.
+/// Sample of a port of the flight; true for a new one.
 template <class T>
 class Tapped {
  public:
@@ -100,7 +100,7 @@ class Flown {
  public:
   explicit Flown(const Start& start)
       : start_(start), graph_(graph_of(start)), flight_(graph_, without_log()) {
-    ekf_.params.origin.value = {40.2463724, -111.6474138, 1387, true};  // the mission's
+    ekf_.params.origin.value = {40.2463724, -111.6474138, 1387, true};  // that of the mission
     ekf_.params.origin.is_given = true;
     ekf_.params.gnss_delay.value = start.delay_reported_s;
     if (!start.calibrated) return;
@@ -114,7 +114,8 @@ class Flown {
                            baro_.look(flight_), pitot_.look(flight_), status_.look(flight_)};
       if (now_s() < start_.on_s) continue;
       ekf_.set(ekf_.in.status, status_.value);
-      // Each is stamped with its arrival: of the receiver's delay the estimator knows what it is told.
+      // Each sample is stamped with its arrival: the estimator knows the delay of the receiver only from its
+      // parameter.
       if (news[0]) ekf_.set(ekf_.in.imu, imu_.value, -tick_s);
       if (news[1]) ekf_.set(ekf_.in.gnss, gnss_.value, -tick_s);
       if (news[2]) ekf_.set(ekf_.in.mag, mag_.value, -tick_s);

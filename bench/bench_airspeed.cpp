@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pitot tube and receiver fail together in flights of the shipped autopilot: how wrong the airspeed is and
-// what it claims, with thrust and drag in place of the tube and without. Exits 1 when a promise is missed.
+// Pitot and receiver fail together in flights of the shipped autopilot: error and reported standard deviation
+// of the airspeed, with thrust and drag in place of the pitot and without. Exits 1 when a bound is exceeded.
 // bench_airspeed [--json] [--seeds N] [NAME]
 #include <cstdio>
 #include <cstdlib>
@@ -36,7 +36,7 @@ void print(const Case& c, const std::string& sensors, bool wired, const Flown& f
   std::fflush(stdout);
 }
 
-/// What of the case's promises was not kept.
+/// Bounds of the case that were exceeded.
 unsigned missed(const Case& c, const std::string& sensors, const Flown& f, unsigned down) {
   unsigned n = 0;
   const auto bar = [&](bool kept, const char* what, double value) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Autotune in flight, from gains that are wrong by a factor, on three aircraft: what was kept, the margins
-// measured in flight and those of the linear model. Prints docs/autotune.md and exits 1 when a flight neither
-// measured 6 dB and 45 deg nor went back to its old gains, kept gains whose true margins are below 6 dB and
-// 45 deg, took longer than 90 s, or was not flown. All words: see the usage at the end.
+// Autotune in flight, from gains that are wrong by a factor, on three aircraft: the resulting gains, the
+// margins measured in flight and those of the linear model. Prints docs/autotune.md. Exits 1 when a flight
+// neither measured 6 dB and 45 deg nor restored its old gains, kept gains whose true margins are below 6 dB
+// and 45 deg, took longer than 90 s, or failed. Options: see the usage at the end.
 #include <unistd.h>
 
 #include <cctype>

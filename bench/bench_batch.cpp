@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Aircraft steps per second of a batch of 1000 through the library, by one thread and by two, with one step a
-// call and with 20: the Anaconda in level flight, 2.5 ms, no turbulence. bench_batch [--json | --asked]
-// Asked, it tells for each line `threads steps calls` on its standard input the ns of processor time that a
-// step of one aircraft takes (bench_batch.py).
+// call and with 20: the Anaconda in level flight, 2.5 ms, no turbulence.
+// bench_batch [--json | --asked]
+// --asked: for each line `threads steps calls` on standard input it prints the processor time in ns of a step
+// of
+// one aircraft (bench_batch.py).
 #include <time.h>
 
 #include <algorithm>
@@ -39,7 +41,7 @@ struct Flight {
     }
   }
 
-  /// The least time of a call per step of one aircraft.
+  /// The smallest time of a call per step of one aircraft.
   double step_s(clockid_t clock, unsigned steps, unsigned calls) {
     double best = 1e9;
     for (unsigned k = 0; k < calls; ++k) {

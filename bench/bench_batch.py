@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a step of 1000 aircraft costs more from Python than from C++, which build/bin/bench_batch measures in turns with this: processor time
+"""Additional cost of a step of 1000 aircraft from Python, relative to C++, measured in turns with build/bin/bench_batch: processor time
 of all threads, the best of six calls each, the median of 60 turns.
 
     PYTHONPATH=build/lib/python /usr/bin/python3 bench/bench_batch.py [BUILD]

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Does the estimator know its errors? Flies climbs, descents, turns and changes of speed with the shipped
-// autopilot, seed after seed, with two sets of sensors in light and moderate turbulence, the wind from
-// another side each time, and compares what the estimate claims with the truth. Exits 1 when a flight is
-// lost. bench_consistency [--flights N] [--set PARAMETER=VALUE]... [--with PLUGIN.so] [--json]
+// Consistency of the estimator: flies climbs, descents, turns and changes of speed with the shipped
+// autopilot, with many seeds, two sets of sensors, light and moderate turbulence, and another wind direction
+// each time. Compares the errors of the estimate with the reported standard deviations. Exits 1 when a flight
+// is lost.
+// bench_consistency [--flights N] [--set PARAMETER=VALUE]... [--with PLUGIN.so] [--json]
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -25,7 +26,7 @@ struct Options {
   Overrides overrides;
 };
 
-/// One flight, looked at from 10 s after it has left the ground on.
+/// One flight, evaluated from 10 s after the lift-off on.
 class Judged {
  public:
   Judged(const Graph& graph, Table& table, const fulmar::Vec3<fulmar::Ned>& wind_mps)
@@ -42,7 +43,8 @@ class Judged {
       const auto* const s = at<VehicleState>(state_);
       const auto* const check = at<FilterCheck>(check_);
       if (!x || !s || !check) continue;
-      const bool truth_is_new = x->position_m.north != north_m_;  // it comes less often than the estimate
+      // the truth has a lower rate than the estimate
+      const bool truth_is_new = x->position_m.north != north_m_;
       north_m_ = x->position_m.north;
       const double now_s = 1e-9 * static_cast<double>(flight_.now_ns());
       if (left_s_ < 0 && x->height_m > 10) left_s_ = now_s;
@@ -50,7 +52,7 @@ class Judged {
       look_at(*check);
       if (truth_is_new) table_.judge(*x, *s, *check, wind_mps_, nees);
     }
-    if (nees.any()) table_.flights.push_back(nees);  // else it was lost before it could be judged
+    if (nees.any()) table_.flights.push_back(nees);  // otherwise it was lost before the evaluation began
     for (const auto& [name, ratios] : ratios_) table_.innovations[name].add_flight(ratios);
     return flight_.finish();
   }
@@ -75,7 +77,7 @@ class Judged {
   const T* at(const Source& source) const {
     return reinterpret_cast<const T*>(flight_.sample(source));
   }
-  /// Innovations stand on their ports until the next sample comes; two that are equal are one.
+  /// Innovations stay on their ports until the next sample: two equal ones are one.
   void add(const std::string& name, double ratio) {
     double& last = last_[name];
     if (ratio == last) return;
@@ -104,10 +106,10 @@ class Judged {
   std::map<std::string, std::vector<double>> ratios_;
 };
 
-/// False: it was not flown.
+/// Returns false when the flight failed.
 bool fly(const Options& options, const std::string& sensors, const std::string& turbulence, int seed,
          Table& table) {
-  const double from_rad = 2.4 * seed;  // the golden angle: every side in a few flights
+  const double from_rad = 2.4 * seed;  // the golden angle: all directions in a few flights
   const fulmar::Vec3<fulmar::Ned> wind{5 * std::cos(from_rad), 5 * std::sin(from_rad), 0};
   Overrides overrides = options.overrides;
   overrides.seed = static_cast<std::uint64_t>(seed);
@@ -196,7 +198,7 @@ int main(int argc, char** argv) {
     for (const std::string sensors : {"rosflight", "ublox"})
       for (const std::string turbulence : {"light", "moderate"}) {
         Table table;
-        const int here = (options.flights + 3 - begun++) / 4;  // shared out among the four
+        const int here = (options.flights + 3 - begun++) / 4;  // divided among the four
         for (int seed = 1; seed <= here; ++seed) lost += !fly(options, sensors, turbulence, seed, table);
         if (table.flights.empty()) continue;
         if (options.json)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flies at the least airspeed, flight after flight, each with another aircraft than the laws were made for,
-// in turbulence and gusts. Prints docs/envelope.md and exits 1 when a bar is missed. bench_envelope
-// [--flights N] [--first SEED] [--jobs N] [--set COMP.PARAM=VALUE]... [--each] [--json]
+// Flies at the least airspeed, each flight with another aircraft than that of the laws, in turbulence and
+// gusts. Prints docs/envelope.md and exits 1 when a bar is missed.
+// bench_envelope [--flights N] [--first SEED] [--jobs N] [--set COMP.PARAM=VALUE]... [--each] [--json]
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -19,7 +19,7 @@ using namespace fulmar::envelope_bench;
 
 namespace {
 
-// The bars: flights on the ground, of 1000, and the longest time beyond the stall.
+// The bars: ground contacts of 1000 flights, and the longest time beyond the stall.
 constexpr int max_on_ground = 2;
 constexpr double max_stalled_s = 2;
 
@@ -39,7 +39,7 @@ Flown fly(const Options& o, std::uint64_t seed) {
   return Watched(fulmar::core::load_mission(mission, over), d, file.wing.stall_alpha_rad).fly();
 }
 
-/// In `jobs` processes: what a flight loads is a process's own. By seed.
+/// Runs in `jobs` processes, since plugins are loaded once per process. Results by seed.
 std::vector<Flown> fly_all(const Options& o) {
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("no pipe");
@@ -72,7 +72,7 @@ std::vector<Flown> fly_all(const Options& o) {
   return all;
 }
 
-/// Of the flights of one aircraft, or of one law.
+/// Statistics of the flights of one aircraft, or of one law.
 struct Sum {
   int flights = 0, ended = 0, crashed = 0, stalled_long = 0, reported = 0, lost_height = 0;
   double stalled_s = 0, lowest_m = 1e9;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random shipped missions, in each of which something fails by chance: whether a flight that did not do its
-// mission says so, and whether its reason names what failed. Prints the table of docs/safety.md, "By chance",
-// and exits 1 when a flight is silent. bench_failures [--seeds FROM-TO] [--flights]
+// Random shipped missions with a random failure each: checks that a flight that does not complete its mission
+// reports it, and that its reason names the failure. Prints the table of docs/safety.md, "By chance", and
+// exits 1 when a flight is silent.
+// bench_failures [--seeds FROM-TO] [--flights]
 #include <cstdio>
 #include <cstring>
 #include <map>

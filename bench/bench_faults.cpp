@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Everything of the simulated aircraft fails in every way, ten seeds each, while the shipped autopilot flies
-// the hourglass: what came of it. Prints docs/faults.md and exits 1 when a failure that is said to be
-// survived is not. bench_faults [--json] [--seeds N] [WHAT [HOW]]
+// Each part of the simulated aircraft fails in every way, ten seeds each, while the shipped autopilot flies
+// the hourglass. Prints docs/faults.md and exits 1 when a failure that must be survived is not.
+// bench_faults [--json] [--seeds N] [WHAT [HOW]]
 #include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -30,7 +30,7 @@ soonest. `told`: flights in which the host or a component said something of it; 
 |---|---|---|---|---|---|---|---|---|---|---|---|---|---|
 )";
 
-/// What the autopilot is expected to survive, whatever the seed.
+/// Failures that the autopilot must survive with any seed.
 bool must_fly(const Failure& f) {
   static const std::vector<std::string> targets = {"nothing", "mag", "baro", "rudder", "radio", "icing"};
   static const std::vector<std::pair<std::string, std::string>> list = {

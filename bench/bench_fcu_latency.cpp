@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From an inertial sample on the wire of a flight controller to the command of that tick on the wire back, at
-// 400 Hz, with the shipped controllers in every tick and the log written; beside a bare echo on the same
-// pseudo-terminal in the same run. Both with and without real-time priority. The figures mean something on a
-// machine that does nothing else. bench_fcu_latency [--json] [--seconds N]
+// Latency from an inertial sample at a flight controller's port to the command of that tick at the same port,
+// at 400 Hz, with the shipped controllers in every tick and the log written. It is compared with a bare echo
+// on the same pseudo-terminal in the same run, with and without real-time priority. The figures are valid on
+// an idle machine.
+// bench_fcu_latency [--json] [--seconds N]
 #include <poll.h>
 #include <sched.h>
 #include <sys/prctl.h>
@@ -40,9 +41,9 @@ bool real_time(int priority) {
   return ::sched_setscheduler(0, priority > 0 ? SCHED_FIFO : SCHED_OTHER, &p) == 0;
 }
 
-// ---- the two who answer
+// ---- the two responders
 
-/// Answers each read of a frame at once with a frame of a command's size.
+/// Answers each frame at once with a frame of a command's size.
 [[noreturn]] void echo(const std::string& port) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   const int fd = ::open(port.c_str(), O_RDWR | O_NOCTTY);
@@ -106,7 +107,7 @@ class Controller {
   }
   std::string port() const { return port_.name(); }
 
-  /// So long; the first second does not count. `alone`: inertial samples and nothing else goes out.
+  /// Measures for that time; the first second does not count. `alone`: only inertial samples are sent.
   Figures measure(double seconds, bool alone) {
     Figures f;
     const std::int64_t first_ns = now_ns() + 1'000'000'000,
@@ -120,7 +121,7 @@ class Controller {
     }
     return f;
   }
-  /// Until the host commands.
+  /// Waits for commands of the host.
   bool wait_for_commands(double seconds) {
     const auto before = firmware_.commands();
     Figures none;
@@ -170,7 +171,7 @@ class Controller {
       if (counts) {
         ++f.samples;
         if (sent_ns_ > 0)
-          ++f.unanswered;  // in its period: the answer counts from the oldest sample without one
+          ++f.unanswered;  // within its period: the answer counts from the oldest sample without one
       }
       if (sent_ns_ == 0) sent_ns_ = now_ns();
       port_.write(frame.view());
@@ -201,7 +202,7 @@ nlohmann::json trip(const Figures& f) {
           {"unanswered", f.unanswered}};
 }
 
-/// Gaps and jitter of the loop, as the controller sees them.
+/// Gaps and jitter of the loop, measured by the controller.
 nlohmann::json loop(const Figures& f) {
   std::vector<double> jitter;
   int gaps = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flies missions through the software flight controller, which has no contact switch: what is planned, wrong
-// heights, sensors and radios that fail, pilots who take over. Each log is replayed. Exits 1 when a bar is
+// Flies missions through the software flight controller, which has no contact switch: nominal flights, wrong
+// heights, failures of sensors and radios, pilots who take over. Each log is replayed. Exits 1 when a bar is
 // missed.
 //   bench_hardware [--seeds N] [--first SEED] [--only WORDS] [--no-replay] [--lines] [--json]
 #include <unistd.h>
@@ -19,7 +19,7 @@ struct Settings {
   int seeds = 20;
   std::uint64_t first = 1;
   std::string only;                                 ///< part of "MISSION, CASE"
-  bool json = false, replay = true, lines = false;  ///< lines: that such a flight has said
+  bool json = false, replay = true, lines = false;  ///< lines: prints the reports of a failed flight
 };
 
 bool read(int argc, char** argv, Settings& s) {
@@ -43,7 +43,7 @@ bool read(int argc, char** argv, Settings& s) {
   return true;
 }
 
-/// Of sorted values.
+/// Quantile of sorted values.
 double share_of(const std::vector<double>& sorted, double share) {
   if (sorted.empty()) return 0;
   const auto at = static_cast<std::size_t>(share * static_cast<double>(sorted.size()));
@@ -146,7 +146,7 @@ void print_touch_downs(const std::vector<Row>& rows) {
   }
 }
 
-/// Each flight that was not as its case asks.
+/// Prints each flight that does not meet its case.
 void print_others(const std::vector<Row>& rows, bool lines) {
   for (const Row& row : rows)
     for (const Landing& l : row.flights) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a step in a child costs above the bare round trip between two processes of the same run, asleep and
-// spinning; and a step in this process, bare, and guarded and timed. The figures mean something on a machine
-// that does nothing else. bench_isolation [--json]
+// Cost of a step in a child process above the bare round trip between two processes of the same run, asleep
+// and spinning; and of a step in this process, bare, and guarded and timed. The figures are valid on an idle
+// machine.
+// bench_isolation [--json]
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -27,7 +28,7 @@ namespace {
 constexpr std::int64_t spin_ns = 50'000;
 constexpr int block = 5000,
               blocks =
-                  24;  // 120 000 round trips of each kind, taken in turns: what disturbs one disturbs all
+                  24;  // 120 000 round trips of each kind, in turns, so that disturbances affect all kinds
 
 // ---- the bare round trip
 
@@ -109,7 +110,7 @@ IsolatedOptions options_of(const Component& c, std::int64_t spin) {
   return o;
 }
 
-// Inputs that are all new in each step, as in a loop where everything runs at the same rate.
+// Inputs that are all new in each step, as in a loop with equal rates.
 struct Law {
   const fulmar_component* functions;
   void* instance;
@@ -160,7 +161,7 @@ struct Row {
   }
 };
 
-/// Each call by itself.
+/// Times each call separately.
 template <class F>
 void time_each(Row& row, F&& call) {
   for (int i = 0; i < block; ++i) {
@@ -170,7 +171,7 @@ void time_each(Row& row, F&& call) {
   }
 }
 
-/// A thousand calls at once: the clock's own cost disappears.
+/// Times a thousand calls together, so that the cost of the clock is negligible.
 template <class F>
 void time_batches(Row& row, F&& call) {
   constexpr int batch = 1000;
@@ -200,7 +201,7 @@ struct Figures {
   }
 };
 
-// The loop's own way to step it.
+// Steps it as the loop does.
 class Guarded {
  public:
   explicit Guarded(const Component& c) : unit_(c, {}) {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flies from runway to runway, flight after flight, each in another wind and with another aircraft than the
-// laws were made for. Prints docs/landing.md and exits 1 when a bar is missed. bench_landing [--flights N]
-// [--first SEED] [--jobs N] [--wind MPS] [--off DEG] [--set COMP.PARAM=VALUE]... [--log FILE] [--each]
-// [--json]; --log flies the seed of --first alone. --hard [--height M] draws aircraft, centre of gravity,
-// motor, slope, sensors, moderate turbulence, and a height of the runway that is off by up to M metres, too.
+// Flies from runway to runway, each flight in another wind and with another aircraft than that of the laws.
+// Prints docs/landing.md and exits 1 when a bar is missed.
+// bench_landing [--flights N] [--first SEED] [--jobs N] [--wind MPS] [--off DEG] [--set COMP.PARAM=VALUE]...
+// [--log FILE] [--each] [--json]; --log flies only the seed of --first. --hard [--height M] also draws
+// aircraft, centre of gravity, motor, slope, sensors, moderate turbulence, and an error of the runway's
+// height of up to M metres.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -36,7 +37,7 @@ Dispersion dispersion_of(const Options& o, std::uint64_t seed) {
   return o.hard ? hard_dispersion(seed, o.height_off_m) : dispersion(seed, o.wind_mps, o.off_deg * deg);
 }
 
-/// In `jobs` processes: what a flight loads is a process's own. By seed.
+/// Runs in `jobs` processes, since plugins are loaded once per process. Results by seed.
 std::vector<Landed> fly_all(const Options& o) {
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("no pipe");
@@ -70,7 +71,7 @@ std::vector<Landed> fly_all(const Options& o) {
   return all;
 }
 
-/// Nearest rank, of those that touched (1: the largest).
+/// Nearest rank among the flights with a touch-down (1: the largest).
 template <class Value>
 double quantile(const std::vector<Landed>& all, double q, Value value) {
   std::vector<double> sorted;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flies the hourglass with Fulmar's outer laws and with ROSplane's documented laws (bench/rosplane_laws), the
-// same winds, turbulence, sensors, estimator and seeds, and prints nine figures and their ratios. Exits 1
-// when a flight is not flown, and when Fulmar's are not as far ahead as bench/rosplane_laws/README.md
-// promises. bench_laws [--json | --markdown] [--seeds N] [--mended]
+// Flies the hourglass with Fulmar's outer laws and with ROSplane's documented laws (bench/rosplane_laws),
+// with the same winds, turbulence, sensors, estimator and seeds, and prints nine figures and their ratios.
+// Exits 1 when a flight fails, or when a ratio exceeds its bound in bench/rosplane_laws/README.md.
+// bench_laws [--json | --markdown] [--seeds N] [--mended]
 #include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -35,7 +35,7 @@ struct Options {
   bool mended = false;
 };
 
-/// Means over the seeds, one for each figure; empty when a flight was not flown.
+/// Means over the seeds, one for each figure; empty when a flight failed.
 std::vector<double> fly(const std::string& law, int wind, const Options& o) {
   std::vector<double> mean(figures.size(), 0.0);
   for (int seed = 1; seed <= o.seeds; ++seed) {
@@ -66,13 +66,13 @@ std::vector<double> fly(const std::string& law, int wind, const Options& o) {
   return mean;
 }
 
-/// What the ratio of a figure, Fulmar's over ROSplane's of the same kind, is to stay below in wind.
+/// Upper bound in wind of the ratio of a figure, Fulmar's over that of ROSplane's law of the same kind.
 double bar(const std::string& law, int wind, const std::string& figure) {
   if (wind == 0) return 1;
   if (law == "errors" && (figure == "altitude_m" || figure == "airspeed_mps")) return 0.75;
   if (figure == "airspeed_mps") return 0.6;
   if (figure == "surface_rate_rms_radps") return 0.65;
-  if (figure == "course_deg" && wind == 8) return 0.6;  // 50 m at 25 m/s ask for more bank than there is
+  if (figure == "course_deg" && wind == 8) return 0.6;  // 50 m at 25 m/s need more bank than the limit
   return 0.42;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shipped autopilot through a software flight controller in virtual time, ten seeds each: the link falls
-// silent in a turn, the receiver loses its fix in cruise. Prints docs/link_gaps.md and exits 1 when one of
-// its bars is missed. bench_link_gaps [--seeds N] [gaps | fixes]
+// The shipped autopilot through a software flight controller in virtual time, ten seeds each: a gap of the
+// link in a turn, loss of the fix in cruise. Prints docs/link_gaps.md and exits 1 when one of its bars is
+// missed.
+// bench_link_gaps [--seeds N] [gaps | fixes]
 #include <cstdio>
 #include <cstdlib>
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Flies the hourglass with ten seeds and both sensor presets and compares the means with the figures of the
 // ROSplane 2.0 paper: tracking with its hardware flight, estimation with its simulated estimator. Exits 1
-// when a figure is worse. bench_missions [--json | --markdown] [--seeds N] [--mission FILE]
+// when a figure is worse.
+// bench_missions [--json | --markdown] [--seeds N] [--mission FILE]
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>

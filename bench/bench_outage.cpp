@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far does the estimate drift without GNSS? Flies a recorded flight once for each outage, its fixes
-// withheld for a while, and compares the estimate with the last fix withheld, at the time for which that
-// holds; and once with all fixes, with each of them. Exits 1 when one cannot be flown.
+// Drift of the estimate without GNSS. Flies a recorded flight once for each outage, with its fixes withheld
+// for a while, and compares the estimate with the last withheld fix at its time of validity. It also flies
+// once with all fixes and compares with each of them. Exits 1 when a flight fails.
 // bench_outage LOG.yaml --folder FOLDER --starts 280,310,... [--seconds N] [--mission FILE.yaml]
 //              [--set COMPONENT.PARAMETER=VALUE]... [--with COMPONENT=PLUGIN.so]... [--json]
 #include <cstdio>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a step in Python costs above the same step in C++: VehicleState and GuidanceCommand in,
-// AttitudeCommand and a probe out, 100 Hz. bench_python [--json]
+// Additional cost of a step in Python relative to the same step in C++: VehicleState and GuidanceCommand in,
+// AttitudeCommand and a probe out, 100 Hz.
+// bench_python [--json]
 #include <dlfcn.h>
 #include <time.h>
 
@@ -36,7 +37,8 @@ struct Times {
   double p50_us, p99_us, max_us;
 };
 
-/// Steps one component, each step timed by itself, `pause_ns` apart as in a flight of that rate (0: at once).
+/// Steps one component, each step timed separately, with pauses of `pause_ns` as in a flight of that rate (0:
+/// none).
 class Stepper {
  public:
   explicit Stepper(const fulmar_component& c) : c_(c) {

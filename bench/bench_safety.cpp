@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What fails in flight, what the aircraft does about it, and where it ends, ten seeds each. Prints the table
-// of docs/safety.md, "In flight", and exits 1 when a flight ends otherwise than it says. bench_safety
-// [--json] [--flights N] [AIRFRAME [NAME]]
+// Failures in flight, the actions of the aircraft, and the end of each flight, ten seeds each. Prints the
+// table of docs/safety.md, "In flight", and exits 1 when a flight ends otherwise than its row.
+// bench_safety [--json] [--flights N] [AIRFRAME [NAME]]
 #include <cstdio>
 #include <nlohmann/json.hpp>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each sensor goes bad for a while in the middle of a flight of the shipped autopilot, ten seeds a fault:
-// when the estimator told so, how wrong it was meanwhile, how soon it was right again. Prints
-// docs/sensor_faults.md and exits 1 when something that is promised of a fault is missed. bench_sensor_faults
-// [--json] [--seeds N] [NAME]
+// Each sensor fails for a while during a flight of the shipped autopilot, ten seeds a fault: time until the
+// estimator's report, errors meanwhile, and time of recovery. Prints docs/sensor_faults.md and exits 1 when a
+// bound of a fault is exceeded.
+// bench_sensor_faults [--json] [--seeds N] [NAME]
 #include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -37,7 +37,7 @@ The exit code is 1 when a promise is missed. Where none is given there is a dash
 
 constexpr double reported_within_s = 2, recovered_within_s = 10;
 
-/// The worst of all seeds.
+/// The largest values of all seeds.
 struct Worst {
   unsigned flown = 0, shown = 0, reported = 0, recovered = 0, down = 0;
   Flown of{};
@@ -118,7 +118,7 @@ nlohmann::json json_of(const Row& row, const Worst& w) {
           {"unrecovered", row.unrecovered}};
 }
 
-/// What of the row's promises was not kept.
+/// Bounds of the row that were exceeded.
 unsigned missed(const Row& row, const Worst& w) {
   unsigned n = 0;
   const auto bar = [&](bool kept, const std::string& what) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Allan deviations at rest of the inertial sensors that files describe, ten hours of samples, beside what the
-// files state: at one second, where it is the noise density's, and the lowest, which is the bias instability.
-// Exits 1 when one is more than a tenth off. bench_sensors FILE.yaml... [--hours N] [--seed N] [--json]
+// Allan deviations at rest of inertial sensors from files, ten hours of samples, compared with the values of
+// the files: at one second, where it is that of the noise density, and the minimum, which is the bias
+// instability. Exits 1 when one differs by more than a tenth.
+// bench_sensors FILE.yaml... [--hours N] [--seed N] [--json]
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -47,7 +48,7 @@ bool read(int argc, char** argv, Options& o) {
   return !o.files.empty() && o.hours >= 0.1 && o.hours <= 100;
 }
 
-/// One line, and whether it is within a tenth. What a file does not state is 0 and within.
+/// One line, and true when it is within a tenth. A value that a file does not give is 0, and is accepted.
 bool report(const char* sensor, double unit, const Curve& c, const SheetSpec& sheet, const Options& o,
             nlohmann::json& into) {
   const auto near = [](double is, double stated) { return stated <= 0 || std::abs(is / stated - 1) <= 0.1; };

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// NASA's check cases of six degrees of freedom (NASA/TM-2015-218675): each is flown with the SDK's equations
-// of motion, Earth and atmosphere and compared with the simulators of NASA, whose files are in DIR. A
-// departure from their median may be three times that of the farthest of them. Exits 1 when one is larger, 2
-// when the files are not there or damaged. bench_six_dof DIR [--json]
+// NASA's check cases of six degrees of freedom (NASA/TM-2015-218675): each runs with the SDK's equations of
+// motion, Earth and atmosphere and is compared with the simulators of NASA, whose files are in DIR. The
+// difference from their median may be three times the largest one among them. Exits 1 when it is larger, 2
+// when the files are missing or damaged.
+// bench_six_dof DIR [--json]
 #include <cstdio>
 #include <cstring>
 #include <nlohmann/json.hpp>

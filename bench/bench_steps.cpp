@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a step costs: each shipped component and the whole tick in the hourglass missions, the simulator's
-// forces and each control law alone, and a 200-byte port hop, bare, guarded and timed.
+// Cost of a step: each shipped component and the whole tick in the hourglass missions, the simulator's forces
+// and each control law alone, and a 200-byte port hop, bare, guarded and timed.
 // bench_steps [--json] [MISSION...]
 #include <time.h>
 
@@ -37,7 +37,7 @@ double quantile(std::vector<double>& v, double q) {
   return *at;
 }
 
-/// Times `batch` calls at once, many times over: the clock's own cost disappears in the batch.
+/// Times `batch` calls together, many times: the cost of the clock is then negligible.
 template <class F>
 Row time_batches(const std::string& name, F&& call) {
   constexpr int batch = 1000, batches = 400;
@@ -62,7 +62,8 @@ Component hop_component(const std::shared_ptr<Library>& library, std::size_t ind
 
 void add_hops(std::vector<Row>& rows) {
   const std::shared_ptr<Library> library = Library::open(FULMAR_HOP);
-  // in a list, as in a graph: on the stack they may lie 4 kB beside what the step writes, which costs 9 ns
+  // in a list, as in a graph: on the stack their distance to the written memory may be a multiple of 4 kB,
+  // which costs 9 ns
   const std::vector<Component> both{hop_component(library, 0, "begin"), hop_component(library, 1, "hop")};
   const Component& begin = both[0];
   const Component& hop = both[1];
@@ -76,7 +77,7 @@ void add_hops(std::vector<Row>& rows) {
   source.step(now, 0);
   source.out.publish([](Slot&) {});
 
-  // bare: the call through the contract, the block copied in and out
+  // bare: the call through the contract, with copies of the block in and out
   const fulmar_component& functions = library->functions(1);
   fulmar_error error{};
   void* instance = functions.create(1, &error);
@@ -102,7 +103,7 @@ void add_hops(std::vector<Row>& rows) {
   }));
 }
 
-/// The Anaconda in steady flight with surfaces that move, 2.5 ms, wind and no turbulence; no sensors.
+/// The Anaconda in steady flight with moving surfaces, 2.5 ms, wind and no turbulence; no sensors.
 void add_forces(std::vector<Row>& rows) {
   using fulmar::Actuators;
   fulmar::sim::Weather weather;

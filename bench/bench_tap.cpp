@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What it costs the loop to be recorded and watched, and how large the log becomes.
+// Cost of recording and observing for the loop, and size of the log.
 //
 // bench_tap [--json] [--seconds N] [--rounds N] [--each]
-//   flies in real time, alternately: nothing leaves the loop; every port at its full rate into a log, to two
+//   flies in real time, alternately: without output; with every port at its full rate into a log, to two
 //   clients that subscribe to everything, and four ports to a DDS reader. Processor time of the loop's thread
-//   alone, per tick, the pause until the next one included. --each: log, clients and DDS one by one as well.
-//   Exits 1 when something was dropped.
+//   alone, per tick, including the pause until the next one. --each: also log, clients and DDS separately.
+//   Exits 1 when a message was dropped.
 // bench_tap --sizes [--json]
 //   flies as fast as possible: megabytes of log per minute of flight, with every port at full rate and by
 //   default
@@ -43,7 +43,7 @@ std::string topic_of(std::string port) {
   return "/" + port;
 }
 
-// ---- the other side: this program once more, in processes of its own
+// ---- the clients: this program in further processes
 
 int print(const json& result) {
   std::printf("%s\n", result.dump().c_str());
@@ -66,7 +66,7 @@ int be_client(const std::string& port) {
   return print({{"all", all}, {"nav.state", states}});
 }
 
-/// Until nothing has come for two seconds.
+/// Reads until no data has arrived for two seconds.
 int be_reader(const std::string& domain) {
   using std::chrono::steady_clock;
   constexpr auto pause = std::chrono::seconds(2), patience = std::chrono::seconds(30);
@@ -96,7 +96,7 @@ int be_reader(const std::string& domain) {
   return print({{"all", all}, {"nav.state", states}});
 }
 
-/// This program once more.
+/// A further process of this program.
 class Process {
  public:
   explicit Process(const std::string& words)
@@ -106,7 +106,7 @@ class Process {
   ~Process() {
     if (pipe_) pclose(pipe_);
   }
-  /// What it has printed, once it has ended; null when that is no JSON.
+  /// Its output after its end; null when that is no JSON.
   json result() {
     std::string text;
     for (int c = 0; pipe_ && (c = std::fgetc(pipe_)) != EOF;) text += static_cast<char>(c);
@@ -120,7 +120,7 @@ class Process {
 
 // ---- flights
 
-/// Who listens: of "log", "live", "dds".
+/// Clients: of "log", "live", "dds".
 using Sinks = std::vector<std::string>;
 bool has(const Sinks& sinks, const char* name) {
   return std::find(sinks.begin(), sinks.end(), name) != sinks.end();
@@ -161,7 +161,7 @@ double quantile(std::vector<double>& v, double q) {
   return *at;
 }
 
-/// Both loops on the same processor, that neither finds the better one; what they started before stays free.
+/// Both loops run on the same processor, so that neither has an advantage; threads started before stay free.
 void stay_on_last_cpu() {
   cpu_set_t allowed, last;
   if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) return;
@@ -194,7 +194,7 @@ int fly(double seconds, const Sinks& sinks) {
     ticks_us.push_back(1e-3 * static_cast<double>(end - begin));
   }
   const FlightResult r = flight->finish();
-  flight.reset();  // it says good-bye
+  flight.reset();  // sends its last messages
   json reported = {{"p50_us", quantile(ticks_us, 0.5)},
                    {"p99_us", quantile(ticks_us, 0.99)},
                    {"ticks", r.ticks},
@@ -220,8 +220,7 @@ struct Kind {
   std::string name, sinks;
 };
 
-/// Two flights at once, so that whatever the machine does falls on both: one that nothing leaves, one that is
-/// listened to.
+/// Two flights at the same time, so that disturbances affect both: one without clients, one with them.
 json fly_both(const Kind& kind, double seconds) {
   const std::string words = "--fly " + std::to_string(seconds) + " ";
   Process bare(words), heard(words + kind.sinks);

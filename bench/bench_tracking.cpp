@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How well plans are flown over wind and turbulence: hourglass, orbit, square, and 50 m up and down,
-// Anaconda, `ublox` sensors, wind from the south-east. Root mean squares against the estimate, means of so
-// many seeds; exits 1 when a flight is lost, or a cell of the hourglass in 5 m/s and light turbulence is
-// above its bar.
+// Tracking of plans over wind and turbulence: hourglass, orbit, square, and 50 m up and down, Anaconda,
+// `ublox` sensors, wind from the south-east. Root mean squares relative to the estimate, means over the
+// seeds. Exits 1 when a flight is lost, or a cell of the hourglass in 5 m/s and light turbulence exceeds its
+// bar.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -21,7 +21,7 @@ using namespace fulmar::core;
 namespace {
 
 struct Plan {
-  const char *name, *mission, *plan;  ///< plan: in place of the mission's, or ""
+  const char *name, *mission, *plan;  ///< plan: replaces that of the mission; "": none
 };
 constexpr std::array<Plan, 4> plans{
     {{"hourglass", "configs/missions/hourglass.yaml", ""},
@@ -31,7 +31,7 @@ constexpr std::array<Plan, 4> plans{
 constexpr std::array winds_mps{0, 4, 5, 8, 12};
 struct Column {
   const char* key;
-  double bar;  ///< of the hourglass in 5 m/s, light turbulence
+  double bar;  ///< for the hourglass in 5 m/s, light turbulence
 };
 constexpr std::array<Column, 7> columns{{{"north_m", 0.60},
                                          {"east_m", 0.45},
@@ -41,7 +41,7 @@ constexpr std::array<Column, 7> columns{{{"north_m", 0.60},
                                          {"pitch_deg", 0.45},
                                          {"airspeed_mps", 0.20}}};
 
-/// Sums of one cell's flights. Lost: those that were not flown to the end.
+/// Sums of the flights of one cell. Lost: flights that did not reach the end.
 struct Cell {
   std::map<std::string, double> sums;
   int flown = 0, lost = 0;

@@ -31,13 +31,13 @@ VehicleState climbing_turn() {
   return s;
 }
 
-/// `set` gives a bench parameters and inputs, and returns what moves an input in every step: what nothing
-/// changes, a wash-out forgets to numbers so small that they are slow to compute with.
+/// `set` gives a bench parameters and inputs, and returns a function that changes an input in every step.
+/// With constant inputs a wash-out decays to denormal numbers, which are slow.
 template <class Law, class Set>
 LawStep of(const std::string& name, Set set) {
   auto bench = std::make_shared<Bench<Law>>();
   auto move = set(*bench);
-  bench->step(0.0025);  // parameters and inputs are there, integrals have begun
+  bench->step(0.0025);  // sets parameters and inputs, starts the integrals
   return {name, [bench, move] {
             for (int i = 0; i < 1000; ++i) {
               move(*bench, i & 1 ? 0.001 : -0.001);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-/// A step of a law and nothing else: no guard, no port, no clock.
+/// A step of a law alone: no guard, no port, no clock.
 struct LawStep {
   std::string name;
   std::function<void()> thousand;  ///< steps, one after another

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Writes docs/figures.md: every number in it comes from a program of this folder, run now on this machine.
+# Writes docs/figures.md: every number in it comes from a program of this folder, run at that time on this machine.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 fulmar=build/bin/fulmar

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Passes 200 bytes on: what a port costs by itself.
+// Passes 200 bytes on: the cost of a port alone.
 #include "fulmar/plugin.hpp"
 
 using namespace fulmar;

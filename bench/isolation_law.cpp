@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A law of the usual size that costs next to nothing: what it takes to call it is what is measured.
+// A law of typical size with negligible computation: the measurement is the cost of its call.
 #include "fulmar/msg/attitude_command.hpp"
 #include "fulmar/msg/guidance_command.hpp"
 #include "fulmar/msg/vehicle_state.hpp"

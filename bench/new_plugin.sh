@@ -42,7 +42,7 @@ ctest --test-dir build --output-on-failure >test.log 2>&1 || fail "the test fail
 grep -q '"result": "flown"' result.json || fail "the mission did not fly" result.json
 new_to_flown=$(since "$begin")
 
-# wait_for PATTERN COUNT SECONDS: until the watch has printed so many lines of the kind
+# wait_for PATTERN COUNT SECONDS: waits until the watch has printed COUNT lines with PATTERN
 wait_for() {
   for _ in $(seq $(($3 * 20))); do
     [ "$(grep -cE "$1" watch.log || true)" -ge "$2" ] && return 0

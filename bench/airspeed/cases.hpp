@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is lost in the flights of bench_airspeed, and what is promised of the airspeed meanwhile.
+// Lost sensors in the flights of bench_airspeed, and the bounds of the airspeed meanwhile.
 #pragma once
 #include <stdexcept>
 #include <string>
@@ -9,17 +9,18 @@ namespace fulmar::lost_airspeed {
 
 struct Case {
   std::string name{}, words{};
-  double lost_s = 60;    ///< the tube, for so long
-  double from_s = 85;    ///< after it was armed
-  bool gnss = true;      ///< the receiver as well
-  double engine_s = -1;  ///< after the loss the motor fails, up to its end; -1: never
+  double lost_s = 60;  ///< duration of the loss of the pitot
+  double from_s = 85;  ///< time since arming
+  bool gnss = true;    ///< the receiver is available
+  // time from the loss to a motor failure, which lasts as long as the loss; -1: never
+  double engine_s = -1;
   double engine_for_s = 1e9;
-  double ramp_s = 0;      ///< within that time
-  double left_ratio = 0;  ///< and gets this share of the voltage
+  double ramp_s = 0;      ///< transition time
+  double left_ratio = 0;  ///< remaining share of the voltage
   std::string turbulence = "light";
   // With the model, m/s and shares of the time:
   double rms_mps = 0.8, max_mps = 3.5, within_2 = 0.9;
-  bool modelled = true;     ///< for at least 0.95 of the time
+  bool modelled = true;     ///< expected for at least 0.95 of the time
   double max_modelled = 1;  ///< share of the time, at most
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flies the shipped autopilot through legs, turns, climbs and descents, takes sensors away for a while, and
-// measures what is said of the airspeed meanwhile.
+// Flies the shipped autopilot through legs, turns, climbs and descents, with some sensors missing for a
+// while, and measures the error and the reported standard deviation of the airspeed meanwhile.
 #pragma once
 #include <unistd.h>
 
@@ -22,7 +22,7 @@ namespace fulmar::lost_airspeed {
 
 namespace fs = std::filesystem;
 
-/// From the loss until the sensors are back.
+/// Results from the loss until the return of the sensors.
 struct Flown {
   double ticks = 0, square = 0, variance = 0, most = 0, within_1 = 0, within_2 = 0, valid = 0, modelled = 0,
          min_true = 1e9;  ///< m/s, m2/s2, ticks

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two of the flights of bench_airspeed, and what it promises of them.
+// Two of the flights of bench_airspeed, with its bounds.
 #include <doctest/doctest.h>
 
 #include "bench/airspeed/flight.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the attitude benchmark asks for, and that the shipped laws do it with the shipped gains.
+// Targets of the attitude benchmark, and the shipped laws with the shipped gains.
 #include <doctest/doctest.h>
 
 #include "bench/attitude/flown.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Simulation and laws are compiled here alone: for the bench and for its test.
+// Simulation and laws are compiled only here, for the bench and for its test.
 #include "bench/attitude/flown.hpp"
 
 #include <yaml-cpp/yaml.h>
@@ -52,7 +52,7 @@ VehicleState seen(const sim::Simulation& sim) {
   return s;
 }
 
-/// 300 m above the ground, which is as much below the sea: the density of the publication.
+/// 300 m above the ground, which is 300 m below sea level: the air density of the publication.
 sim::Simulation begun(const Airframe& a, const Episode& e, Turbulence turbulence) {
   sim::SimulationOptions options;
   options.origin_altitude_m = -300;
@@ -78,7 +78,7 @@ struct Params {
   slc::Inner::Params inner;
 };
 
-/// Into the parameter of that name. The numbers of the file are in SI.
+/// Sets the parameter of that name. The numbers of the file are in SI.
 template <class P>
 bool set_one(P& params, const std::string& name, double value) {
   using Table = detail::ParamTable<P>;
@@ -112,7 +112,7 @@ Params params_of(const Gains& gains) {
   return params;
 }
 
-/// The shipped components, stepped as the host does.
+/// The shipped components, stepped as by the host.
 struct ShippedLaw {
   Bench<slc::Airspeed> airspeed;
   Bench<slc::Inner> inner;
@@ -126,7 +126,7 @@ struct ShippedLaw {
   Actuators step(const VehicleState& state, const Target& target) {
     GuidanceCommand command;
     command.airspeed_mps = target.airspeed_mps;
-    // the samples are of the time of the step to come
+    // the samples have the time of the step that follows
     airspeed.set(airspeed.in.state, state, -dt_s);
     airspeed.set(airspeed.in.wanted, AttitudeCommand{target.roll_rad, target.pitch_rad, 0}, -dt_s);
     airspeed.set(airspeed.in.command, command, -dt_s);

@@ -13,7 +13,7 @@
 
 namespace fulmar::attitude {
 
-/// What the law sees first, and of the air and the motor what it does not see.
+/// Initial measurements of the law, and properties of air and motor that it does not measure.
 struct Beginning {
   VehicleState seen;
   double w_mps = 0, propeller_radps = 0, density_kgm3 = 0;
@@ -28,15 +28,15 @@ struct Setting {
   std::string component, name;
   double value = 0;
 };
-/// Of two that are the same parameter's the later one counts.
+/// Of two for the same parameter the later one counts.
 using Gains = std::vector<Setting>;
 
-/// Those of configs/airframes/x8.yaml.
+/// The gains of configs/airframes/x8.yaml.
 Gains shipped_gains();
-/// Throws Wrong where there is no such parameter, or the value is out of its range.
+/// Throws Wrong for an unknown parameter or a value out of its range.
 void check(const Gains& gains);
 
-/// The PID of the publication, its gains and limits: what its figures are compared with.
+/// The PID of the publication with its gains and limits, as a reference.
 struct PublishedPid {
   double airspeed_integral = 0, pitch_integral = 0;
 
@@ -54,8 +54,8 @@ struct PublishedPid {
   }
 };
 
-/// Descents of the suite go beyond the airspeed that the airframe's file allows a mission: suite raises
-/// airspeed_max to suite_airspeed_max_mps, the only setting that differs from the file.
+/// Descents of the suite exceed the largest airspeed of the airframe's file. `suite` raises airspeed_max to
+/// suite_airspeed_max_mps, the only setting that differs from the file.
 enum class Limits { suite, file };
 inline constexpr double suite_airspeed_max_mps = 40;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The attitude benchmark of the Skywalker X8: E. Bohn, E. M. Coates, S. Moe, T. A. Johansen, Deep
 // Reinforcement Learning Attitude Control of Fixed-Wing UAVs Using Proximal Policy Optimization, ICUAS 2019.
-// Where an episode begins, what it asks for, when it is a success. No aircraft and no law in here.
+// Initial states, targets and success of an episode, independent of aircraft and law.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -18,10 +18,10 @@ inline constexpr double deg = std::numbers::pi / 180;
 inline constexpr double dt_s = 0.01;
 inline constexpr int max_steps = 1500, streak_steps = 100;
 inline constexpr double angle_bound_rad = 5 * deg, airspeed_bound_mps = 2;
-/// Turbulence: of this height above the ground, carried past at this airspeed.
+/// Turbulence at this height above the ground, with this airspeed.
 inline constexpr double turbulence_height_m = 100, turbulence_airspeed_mps = 25;
 
-/// Roll, pitch, body rates, rad and rad/s; airspeed, m/s, and of it the parts along body y and z.
+/// Roll, pitch, body rates, rad and rad/s; airspeed, m/s, and its components along body y and z.
 struct Start {
   double roll_rad = 0, pitch_rad = 0;
   double airspeed_mps = 0, v_mps = 0, w_mps = 0;
@@ -59,8 +59,8 @@ inline Episode episode(std::uint64_t seed, std::uint64_t number) {
   return e;
 }
 
-/// The airspeed asked for one step later: it goes where the pitch target would lead a throttle of 85 % in a
-/// climb, and none in a descent.
+/// The commanded airspeed one step later: it moves to the airspeed at which the pitch target holds with a
+/// throttle of 85 % in a climb, and 0 in a descent.
 inline double next_airspeed(const Target& t) {
   const double theta = t.pitch_rad, Va = t.airspeed_mps;
   if (theta >= 5 * deg) {
@@ -77,7 +77,8 @@ inline double next_airspeed(const Target& t) {
 /// Counts steps within the bounds.
 struct Streak {
   int steps = 0, length = 0;
-  /// Roll, pitch, airspeed: wanted minus is. True when this step ends a streak that is long enough.
+  /// Errors: roll, pitch, airspeed, wanted minus present. Returns true when this step ends a streak that is
+  /// long enough.
   bool step(double roll_error_rad, double pitch_error_rad, double airspeed_error_mps) {
     ++steps;
     const bool within = std::abs(roll_error_rad) <= angle_bound_rad &&
@@ -88,8 +89,8 @@ struct Streak {
   }
 };
 
-/// How much is commanded: the mean of |rate| of elevator, aileron (rad) and throttle, 1/s, averaged over the
-/// three, from the first command to the end of the episode. What the first command is does not count.
+/// Control activity: the mean of |rate| of elevator, aileron (rad) and throttle, 1/s, averaged over the
+/// three, from the first command to the end of the episode. The first command itself does not count.
 struct Variation {
   double sum = 0;
   int commands = 0;
@@ -104,7 +105,7 @@ struct Variation {
 
 struct Result {
   bool success = false;
-  int steps = max_steps;  ///< at which the streak ended
+  int steps = max_steps;  ///< step at which the streak ended
   double variation_per_s = 0;
 };
 
@@ -113,15 +114,15 @@ struct Row {
 };
 struct Published {
   const char* turbulence;
-  Row pid;                ///< of the authors
-  double policy_percent;  ///< success of their best learnt policy
+  Row pid;                ///< by the authors
+  double policy_percent;  ///< success of their best policy
 };
 inline constexpr std::array<Published, 4> published{{{"none", {100, 254, 0.29}, 100},
                                                      {"light", {100, 260, 0.48}, 100},
                                                      {"moderate", {93, 419, 0.67}, 100},
                                                      {"severe", {83, 651, 0.80}, 97}}};
 
-/// As often as the policy, as fast and as quiet as the PID.
+/// Success as high as that of the policy; time and activity at most those of the PID.
 inline bool within(const Row& row, const Published& bar) {
   return row.success_percent >= bar.policy_percent && row.settling_steps <= bar.pid.settling_steps &&
          row.variation_per_s <= bar.pid.variation_per_s;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One flight of each row of one aircraft through the host: the bars of bench_autotune hold.
+// One flight of each row of one aircraft through the host, within the bars of bench_autotune.
 #include <doctest/doctest.h>
 
 #include <cstdlib>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flies configs/missions/autotune.yaml from gains that are wrong by a factor, and judges what it kept by the
-// linear model of the airframe, which the autotune does not know.
+// Flies configs/missions/autotune.yaml from gains that are wrong by a factor, and evaluates the result with
+// the linear model of the airframe, which the autotune does not use.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -37,8 +37,8 @@ struct Case {
   std::string turbulence = "light";
   double wind_mps = 5;  ///< from the north-west
   unsigned seed = 1;
-  std::string params{};  ///< more of the component: ", time_limit: 60 s"
-  std::string sim{};     ///< more of the aircraft
+  std::string params{};  ///< further parameters of the component: ", time_limit: 60 s"
+  std::string sim{};     ///< further parameters of the aircraft
 };
 
 struct Flown {
@@ -47,7 +47,7 @@ struct Flown {
   std::array<Margins, 3> truth{};  ///< with the gains at the end, at the surface
   int unstable = 0;                ///< poles of the linear model with them
   double roll_rad = 0, pitch_rad = 0,
-         height_m = 0;  ///< largest while it tuned; height and pitch: from the begin
+         height_m = 0;  ///< largest during the tuning; height and pitch relative to its begin
 };
 
 inline AutotuneVerdict verdict(const AutotuneReport& r, std::size_t axis) {
@@ -69,7 +69,7 @@ inline aero::InnerLaw scaled(aero::InnerLaw law, double by) {
   return law;
 }
 
-/// Until it is asked to tune, the shipped gains fly. The X8 has no wheels: it is thrown.
+/// Until the tuning is requested, the shipped gains are active. The X8 has no wheels: it is thrown.
 inline fs::path mission_of(const Case& c, const aero::InnerLaw& law, const fs::path& folder) {
   const fs::path file = folder / "autotune.yaml";
   const bool thrown = std::string_view(c.of.name) == "x8";
@@ -100,7 +100,7 @@ inline fs::path mission_of(const Case& c, const aero::InnerLaw& law, const fs::p
   return file;
 }
 
-/// Of the linear model in steady level flight, one loop broken at its surface with the others closed.
+/// Margins of the linear model in steady level flight, one loop broken at its surface with the others closed.
 inline void judge(const Case& c, const aero::AirframeFile& file, aero::InnerLaw law, Flown& out) {
   constexpr double altitude_m = 1457;
   const AutotuneReport& r = out.report;
@@ -160,13 +160,13 @@ inline Flown fly(const Case& c, const fs::path& folder) {
   return out;
 }
 
-/// The axis has the gains that it began with.
+/// The axis has its initial gains.
 inline bool went_back(const AutotuneReport& r, std::size_t i) {
   return r.kp_ratio[i] == r.before_kp_ratio[i] && r.ki_ratio[i] == r.before_ki_ratio[i] &&
          r.kd_ratio[i] == r.before_kd_ratio[i];
 }
 
-/// What the autotune promises, of one axis: margins measured, or the gains of before.
+/// Guarantee of the autotune for one axis: measured margins, or the old gains.
 inline bool promised(const AutotuneReport& r, std::size_t i) {
   if (verdict(r, i) != AutotuneVerdict::kept) return went_back(r, i);
   return 20 * std::log10(r.gain_margin_ratio[i]) >= 6 - 1e-9 && r.phase_margin_rad[i] >= 45 * degree;

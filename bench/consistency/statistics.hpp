@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What bench_consistency says of the flights with one set of sensors in one kind of air.
+// Table of bench_consistency for the flights with one set of sensors in one kind of air.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace fulmar::consistency {
 
-/// What is said of all flights with one set of sensors in one kind of air.
+/// Statistics of all flights with one set of sensors in one kind of air.
 struct Table {
   std::vector<std::string> order;
   std::map<std::string, Channel> channels;

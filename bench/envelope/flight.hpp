@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One flight at the edge of the envelope, of an aircraft that is not the one the laws were made for, and what
-// the truth says of it.
+// One flight at the edge of the envelope, with another aircraft than that of the laws, evaluated by the
+// truth.
 #pragma once
 #include <array>
 #include <cmath>
@@ -22,7 +22,7 @@ namespace fulmar::envelope_bench {
 inline constexpr std::array laws{"slc", "tecs", "errors"};
 inline constexpr std::array turbulences{"none", "light", "moderate", "severe"};
 
-/// An aircraft, and the static margin that the laws' own model of it has; 0: that of its file.
+/// An aircraft, and its static margin in the model of the laws; 0: that of its file.
 struct Kind {
   const char *name, *airframe;
   double static_margin_ratio, mass_ratio, drag_ratio;
@@ -33,7 +33,7 @@ inline constexpr std::array<Kind, 5> kinds{{{"anaconda", "anaconda", 0, 1, 1},
                                             {"anaconda, margin 15 %", "anaconda", 0.15, 1, 1},
                                             {"aerosonde, margin 10 %, less drag", "aerosonde", 0.1, 1, 0.7}}};
 
-/// What is not nominal. All of it follows from the seed.
+/// Differences from the nominal case, all drawn from the seed.
 struct Dispersion {
   std::uint64_t seed = 1;
   const Kind* kind = nullptr;
@@ -66,7 +66,7 @@ inline Dispersion dispersion(std::uint64_t seed) {
   return d;
 }
 
-/// The aircraft that the laws know.
+/// The aircraft in the parameters of the laws.
 inline Airframe known(const Kind& kind, const Airframe& file) {
   Airframe a = file;
   if (kind.static_margin_ratio > 0)
@@ -75,8 +75,8 @@ inline Airframe known(const Kind& kind, const Airframe& file) {
   return a;
 }
 
-/// The one that flies. What moves the centre of gravity back takes static margin, of which 2 % are left: an
-/// unstable aircraft is another subject.
+/// The simulated aircraft. A centre of gravity further aft reduces the static margin, of which at least 2 %
+/// remain: an unstable aircraft is out of scope.
 inline Airframe flown(const Airframe& nominal, const Dispersion& d) {
   Airframe a = nominal;
   a.mass_kg *= d.mass_ratio;
@@ -90,7 +90,7 @@ inline Airframe flown(const Airframe& nominal, const Dispersion& d) {
   return a;
 }
 
-/// Plain, so that it goes through a pipe.
+/// A trivial type, which can be sent through a pipe.
 struct Flown {
   std::uint64_t seed = 0;
   bool ended = false, crashed = false;
@@ -98,7 +98,7 @@ struct Flown {
   double stalled_s = 0;  ///< longest time in which alpha stayed beyond the airframe's stall
   double stalled_at_s = 0;
   double lowest_m = 1e9;  ///< in cruise
-  int reported = 0;       ///< stalls that the law reported
+  int reported = 0;       ///< stalls reported by the law
   int lost_height = 0;
   double calm_m = 0;  ///< RMS of the height error, cruise
 };

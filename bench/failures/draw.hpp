@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All that bench_failures and failures_test fly: a shipped mission and what fails in it, by chance.
+// Random cases of bench_failures and failures_test: a shipped mission and a failure in it.
 #pragma once
 #include <cmath>
 #include <cstdio>
@@ -11,7 +11,7 @@
 
 namespace fulmar::failing_flights {
 
-/// A live parameter of the simulated aircraft, and what it is before and after.
+/// A live parameter of the simulated aircraft, with its values before and after.
 struct Setting {
   std::string name;
   double value[3] = {0, 0, 0};
@@ -21,11 +21,11 @@ struct Setting {
 struct Drawn {
   std::string mission;               ///< the name of a shipped one
   std::string group, failure;        ///< "sensor", "baro stuck"
-  std::vector<std::string> names{};  ///< a reason contains one of these words
+  std::vector<std::string> names{};  ///< a matching reason contains one of these
   FaultRequest fault{};              ///< kind none: `settings` count
   std::vector<Setting> settings{};
-  double at_s = 0, lasts_s = 0;  ///< since the lift-off; lasts 0: for good
-  double grows_s = 0;            ///< of the first setting, from nothing to its value
+  double at_s = 0, lasts_s = 0;  ///< since the lift-off; lasts 0: permanent
+  double grows_s = 0;            ///< time in which the first setting grows from zero to its value
 };
 
 class Chance {
@@ -47,7 +47,7 @@ class Chance {
 struct Part {
   FaultTarget what;
   const char* name;
-  std::vector<std::string> names;  ///< of it in a reason, as a sentence or a code
+  std::vector<std::string> names;  ///< parts of a reason that name it, as a sentence or a code
 };
 
 inline const std::vector<Part>& sensors() {

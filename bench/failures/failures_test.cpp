@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A sample of what bench_failures flies, and that its judge has all four words for a flight.
+// A sample of the flights of bench_failures, and all four classes of its evaluation.
 #include <doctest/doctest.h>
 
 #include <set>

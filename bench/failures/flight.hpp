@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flies what draw.hpp has drawn, and judges it by the truth and by the lines that the flight reports.
+// Runs a case of draw.hpp, and evaluates it by the truth and by the lines that the flight reports.
 #pragma once
 #include <unistd.h>
 
@@ -26,19 +26,19 @@ namespace fulmar::failing_flights {
 
 namespace fs = std::filesystem;
 
-/// How a flight went and what it reports of it.
+/// Class of a flight and of its reports.
 enum class Class : std::uint8_t {
-  done,    ///< its mission, by the truth
-  named,   ///< it did not, and a reason names what failed
-  other,   ///< it did not and reports it, with another reason
-  silent,  ///< it did not, and is called flown, without a reason
+  done,    ///< the mission was completed, by the truth
+  named,   ///< not completed, and a reason names the failure
+  other,   ///< not completed and reported, with another reason
+  silent,  ///< not completed, but reported as flown, without a reason
 };
 inline const char* word(Class c) {
   static constexpr const char* words[] = {"mission done", "reason named", "another reason", "silent"};
   return words[static_cast<std::size_t>(c)];
 }
 
-/// What a mission asks for, by the truth: for so long off the plan, and where the landing ends.
+/// Requirements of a mission, by the truth: largest time off the plan, and the place of the end of a landing.
 struct Asked {
   static constexpr double level_m = 40, height_m = 15, for_s = 3;
   static constexpr double runway_m = 330, before_m = 30, aside_m = 15;
@@ -46,7 +46,7 @@ struct Asked {
 
 struct Flown {
   Class of = Class::done;
-  std::string verdict, missed{}, reason{};  ///< missed: part of the mission; reason: the line that counts
+  std::string verdict, missed{}, reason{};  ///< missed: part of the mission; reason: the decisive line
   std::vector<std::string> lines{};         ///< since the failure
   bool failed_at_all = false;               ///< the flight lasted until the failure
 };
@@ -129,7 +129,7 @@ class FailingFlight {
     }
   }
 
-  /// For how long the aircraft is far from the plan that it is said to follow.
+  /// Time during which the aircraft is far from the plan that is reported as active.
   void off_plan(const VehicleState& x) {
     const auto* const plan = at<Plan>(plan_);
     const auto* const progress = at<Progress>(progress_);
@@ -188,7 +188,7 @@ class FailingFlight {
     return std::any_of(d_.names.begin(), d_.names.end(),
                        [&](const std::string& name) { return line.find(name) != std::string::npos; });
   }
-  /// Figures of a crash are no reason. An answer of safety before it may be one.
+  /// Figures of a crash are not a reason. An answer of safety before it may be one.
   std::string story() const {
     const std::size_t before = flown_.verdict.find("before: ");
     if (before != std::string::npos) return flown_.verdict.substr(before);

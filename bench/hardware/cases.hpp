@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All that bench_hardware flies: missions, what fails on the way, and what has to happen then.
+// Cases of bench_hardware: missions, failures in flight, and the required behaviour.
 #pragma once
 #include <string>
 #include <utility>
@@ -7,7 +7,7 @@
 
 namespace fulmar::hardware_bench {
 
-/// Once, so long after a phase begins, after "landed", or after the first command: "start".
+/// One change, with a delay after the begin of a phase, after "landed", or after the first command: "start".
 struct Event {
   std::string when;
   double after_s = 0;
@@ -18,21 +18,20 @@ struct Event {
 
 struct Case {
   std::string mission = "return_home", name = "as planned";
-  double height_off_m = 0;  ///< the runway is given that much too high
+  double height_off_m = 0;  ///< error of the height of the runway in the mission, upwards
   std::vector<std::pair<std::string, std::string>> set;
   std::vector<Event> events;
-  std::vector<std::string> phases;  ///< that have to be flown, in this order
-  std::vector<std::string> never;   ///< phases that must not be flown
-  std::vector<std::string>
-      reported;  ///< parts of lines that have to come, soon after the last event; a|b: either
+  std::vector<std::string> phases;    ///< required phases, in this order
+  std::vector<std::string> never;     ///< excluded phases
+  std::vector<std::string> reported;  ///< parts of required lines, soon after the last event; a|b: either
   double reported_within_s = 15;
-  double watch_s = 30;  ///< how long it is watched after the landing
-  bool tunes = false;   ///< the autotune has to finish
+  double watch_s = 30;  ///< time of the evaluation after the landing
+  bool tunes = false;   ///< the autotune must finish
 };
 
 inline constexpr double for_ever_s = 1e8;
 
-/// What fails while it cruises, what is said then, and that it lands all the same.
+/// A failure in cruise, its report, and a landing in spite of it.
 inline Case in_cruise(const std::string& mission, const std::string& name, const std::string& fails,
                       double lasts_s, std::vector<std::string> reported) {
   Case c;
@@ -73,7 +72,7 @@ inline std::vector<Case> landings(const std::string& mission) {
   return all;
 }
 
-/// The motor is whole, and does not get what is commanded.
+/// The motor works, but does not get the commanded throttle.
 inline std::vector<Case> motor_is_whole(const std::string& mission) {
   std::vector<Case> all;
   const auto add = [&](const char* name, Event event) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One flight of a mission through the software flight controller in virtual time (fcu_virtual), which
-// publishes what a real controller does: no ground contact, no thrust, no crash. The truth judges.
+// One flight of a mission through the software flight controller in virtual time (fcu_virtual). It publishes
+// the messages of a real controller: no ground contact, no thrust, no crash. The truth is the reference.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -30,11 +30,11 @@ inline constexpr double recognised_95_s = 0.3, recognised_most_s = 0.6;
 
 struct Landing {
   std::uint64_t seed = 0;
-  bool crashed = false, landed = false, flew = false, again = false;  ///< again: airborne after it has landed
-  double recognised_s = 1e9;   ///< of the touch-down, after the true one; below 0: before it
-  double throttle_after = 0;   ///< largest that the motor got after it has landed
-  double takeoff_m = 0;        ///< height at which the phase of the take-off ended
-  bool replayed_equal = true;  ///< true as well when it was not replayed
+  bool crashed = false, landed = false, flew = false, again = false;  ///< again: airborne after the landing
+  double recognised_s = 1e9;   ///< delay of the detected touch-down after the true one; below 0: before it
+  double throttle_after = 0;   ///< largest throttle of the motor after the landing
+  double takeoff_m = 0;        ///< height at the end of the take-off phase
+  bool replayed_equal = true;  ///< also true without a replay
   bool tuned = false;
   std::vector<std::string> phases;
   std::vector<std::pair<double, std::string>> said;
@@ -66,7 +66,7 @@ inline bool holds_one_of(const std::string& line, const std::string& parts) {
   return false;
 }
 
-/// "": the flight was as the case asks. Else the first thing that was not.
+/// "": the flight meets its case. Otherwise the first deviation.
 inline std::string verdict(const Case& c, const Landing& l) {
   if (l.crashed) return "crashed";
   if (l.again) return "took off again by itself";
@@ -174,7 +174,7 @@ class Watched {
     out_.again = out_.again || x.height_m > rest_m_ + 1;
   }
 
-  /// The first time that this happens.
+  /// Records the first occurrence.
   void begin(const std::string& when) {
     for (std::size_t i = 0; i < case_.events.size(); ++i)
       if (case_.events[i].when == when && due_s_[i] < 0) due_s_[i] = now_s_ + case_.events[i].after_s;
@@ -206,7 +206,7 @@ class Watched {
   core::Source truth_, contact_, script_, throttle_, ground_, tune_;
 };
 
-/// Flies the log again. False: something came out otherwise.
+/// Replays the log. Returns false for a difference.
 inline bool replays_equal(const fs::path& log, const fs::path& again) {
   const core::Recording recording(log);
   core::ReplayOptions o;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One flight from runway to runway of an aircraft that is not the one the laws were made for, and what the
-// truth says of it.
+// One flight from runway to runway with another aircraft than that of the laws, evaluated by the truth.
 #pragma once
 #include <array>
 #include <cmath>
@@ -29,18 +28,18 @@ namespace fulmar::landing_bench {
 inline constexpr double deg = std::numbers::pi / 180;
 inline constexpr double runway_heading_rad = 135 * deg;  // of the mission; its threshold is the origin
 
-/// What is not nominal. All of it follows from the seed.
+/// Differences from the nominal case, all drawn from the seed.
 struct Dispersion {
   std::uint64_t seed = 1;
-  double wind_mps = 0, wind_off_rad = 0;  ///< where it comes from, to the right of the runway's heading
+  double wind_mps = 0, wind_off_rad = 0;  ///< direction of its origin, to the right of the runway's heading
   double mass_ratio = 1, delay_s = 0;
   bool ublox = false, slow_servos = false;
-  // Harder draws alone.
-  std::string aircraft = "anaconda", mission = "mission", sensors;  ///< sensors: "" as `ublox` says
+  // Only in harder draws.
+  std::string aircraft = "anaconda", mission = "mission", sensors;  ///< sensors: "" for those of `ublox`
   double cg_share = 0;                                              ///< aft, of the chord
   double engine_share = 1, slope_rad = 0, height_off_m = 0;
   bool moderate = false;
-  std::vector<std::pair<const char*, double>> derivatives;  ///< each times that
+  std::vector<std::pair<const char*, double>> derivatives;  ///< factors of the derivatives
 };
 
 /// `max_wind_mps` at most `max_off_rad` off the runway.
@@ -61,7 +60,7 @@ inline Dispersion dispersion(std::uint64_t seed, double max_wind_mps = 12, doubl
   return d;
 }
 
-/// The same, and another aircraft, centre of gravity, motor, slope, height, sensors, turbulence.
+/// The same, with further draws of aircraft, centre of gravity, motor, slope, height, sensors, turbulence.
 inline Dispersion hard_dispersion(std::uint64_t seed, double max_height_off_m = 6) {
   Dispersion d = dispersion(seed);
   Random random(mix_seed(seed, 2));
@@ -78,7 +77,7 @@ inline Dispersion hard_dispersion(std::uint64_t seed, double max_height_off_m = 
   return d;
 }
 
-/// As the file has it; `airframe` is what the laws know.
+/// Value of the file; `airframe` is the model of the laws.
 inline double& derivative(Aerodynamics& a, const std::string& name) {
   const std::string of = name.substr(0, name.find('.')), over = name.substr(name.find('.') + 1);
   Derivatives& d = of == "lift"    ? a.lift
@@ -101,28 +100,28 @@ inline Airframe dispersed(const Airframe& nominal, const Dispersion& d) {
   for (double* const J : {&a.inertia.xx_kgm2, &a.inertia.yy_kgm2, &a.inertia.zz_kgm2, &a.inertia.xz_kgm2})
     *J *= d.mass_ratio;
   for (const auto& [name, ratio] : d.derivatives) derivative(a.aero, name) *= ratio;
-  // Moments about a centre of gravity that lies aft by that share of the chord, Etkin & Reid, 2.3.
+  // Moments about a centre of gravity further aft by that share of the chord, Etkin & Reid, 2.3.
   a.aero.pitch.alpha_ratio += a.aero.lift.alpha_ratio * d.cg_share;
   a.aero.pitch.zero_ratio += a.aero.lift.zero_ratio * d.cg_share;
   a.aero.pitch.elevator_ratio += a.aero.lift.elevator_ratio * d.cg_share;
   return a;
 }
 
-/// Of what is flown; plain, so that it goes through a pipe.
+/// Results of a flight; a trivial type, which can be sent through a pipe.
 struct Landed {
   std::uint64_t seed = 0;
   bool flown = false, crashed = false, touched = false;
   double min_over_stall = 1e9;  ///< 1 s mean of the true airspeed over this aircraft's stall, aloft
-  double sink_mps = 0;          ///< when it touches
-  double cross_m = 0;           ///< of the centre line, right positive, then
-  double receiver_m = 0;        ///< how far the receiver is off across the runway, then
-  double along_m = 0;           ///< behind the threshold, then
-  double yaw_off_rad = 0;       ///< of the nose, to the right of the runway, then
+  double sink_mps = 0;          ///< at the touch-down
+  double cross_m = 0;           ///< distance from the centre line, right positive, at the touch-down
+  double receiver_m = 0;        ///< error of the receiver across the runway, at the touch-down
+  double along_m = 0;           ///< behind the threshold, at the touch-down
+  double yaw_off_rad = 0;       ///< yaw to the right of the runway, at the touch-down
   double roll_rad = 0;
-  double roll_out_m = 0;  ///< largest distance from the centre line while it rolls
+  double roll_out_m = 0;  ///< largest distance from the centre line during the roll
   std::uint32_t go_arounds = 0;
   double recognised_s = 1e9;  ///< from the true touch-down to the estimated one
-  double early_m = 0;         ///< largest height above the place of the touch-down at an earlier estimate
+  double early_m = 0;         ///< largest height above the place of the touch-down at an earlier detection
   double nose_down_s = 0;     ///< longest time with more than half of the elevator down, after the touch-down
   double stopped_m = 0;       ///< behind the threshold
   double beside_receiver_m() const { return std::abs(cross_m + receiver_m); }
@@ -215,7 +214,7 @@ class Watched {
     nose_down_s_ = down ? nose_down_s_ + 0.0025 : 0;
     out_.nose_down_s = std::max(out_.nose_down_s, nose_down_s_);
   }
-  /// An estimate of before the true touch-down counts when it still stands then.
+  /// A detection before the true touch-down counts if it is still valid then.
   void recognise(const VehicleState& x) {
     const auto* const g = at<GroundState>(ground_);
     const bool was = estimated_;
@@ -227,7 +226,7 @@ class Watched {
     }
   }
   double now_s() const { return 1e-9 * static_cast<double>(flight_.now_ns()); }
-  /// The flare ends what is asked of the airspeed.
+  /// The airspeed is no longer evaluated from the flare on.
   static bool landing_begun(const LandingProgress& p) {
     return p.stage == LandingStage::flare || p.stage == LandingStage::roll_out ||
            p.stage == LandingStage::stopped;
@@ -245,7 +244,7 @@ class Watched {
     const double stall = std::sqrt(2 * flown_.mass_kg * isa::g0 / (rho * flown_.wing.area_m2 * max_lift_));
     out_.min_over_stall = std::min(out_.min_over_stall, sum_ / second / stall);
   }
-  /// Mean over a second or so of what the receiver is off, across the runway.
+  /// Mean error of the receiver over a second, across the runway.
   void receiver(const VehicleState& x) {
     const auto* const g = at<Gnss>(gnss_);
     if (!g || g->utc_ns == last_fix_) return;
@@ -269,7 +268,7 @@ class Watched {
   std::int64_t last_fix_ = 0;
 };
 
-/// `set`: parameters of any component beside what the dispersion changes; `log`: a file, if one is wanted.
+/// `set`: parameters of any component in addition to the dispersion; `log`: a file, or "".
 inline Landed fly(const Dispersion& d, const Airframe& nominal,
                   const std::vector<std::pair<std::string, std::string>>& set = {},
                   const std::string& log = "") {

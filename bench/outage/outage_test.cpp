@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// bench_outage on an aircraft that stands: what is wrong with the fixes withheld is known.
+// bench_outage for an aircraft that does not move, so that the errors are known.
 #include <doctest/doctest.h>
 #include <sys/wait.h>
 #include <unistd.h>

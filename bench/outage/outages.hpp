@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A recorded flight without its fixes for a while: how far off the estimate is at the last one withheld.
+// A recorded flight with a time without fixes: error of the estimate at the last withheld fix.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -26,18 +26,18 @@ struct Fix {
   Gnss gnss;
 };
 
-/// At the last fix withheld.
+/// Errors at the last withheld fix.
 struct Outcome {
-  double start_s = 0, after_s = 0;  ///< after: since the last fix that was used could arrive
+  double start_s = 0, after_s = 0;  ///< after: time since the last possible arrival of a used fix
   double horizontal_m = 0, claimed_m = 0;
   double height_m = 0, height_claimed_m = 0;  ///< height: above the receiver's
 };
 
-/// With all fixes: root mean squares of the difference from them, which have errors of their own.
+/// With all fixes: root mean squares of the difference from the fixes, which have errors themselves.
 struct Aided {
   int fixes = 0;
   double horizontal_m = 0, height_m = 0, height_claimed_m = 0, down_mps = 0;
-  double step_m = 0;  ///< of the height from one state to the next, at most, beyond what the climb explains
+  double step_m = 0;  ///< largest change of height from one state to the next, beyond that of the climb
 };
 
 struct Recipe {
@@ -45,7 +45,7 @@ struct Recipe {
   core::Overrides overrides;
 };
 
-/// The description, read as the host does.
+/// The description, read as by the host.
 inline sensor_log::Description description_file(const std::string& path) {
   core::Report report;
   const core::Node root = core::parse_yaml(core::read_source(path, path), report);
@@ -56,7 +56,7 @@ inline sensor_log::Description description_file(const std::string& path) {
   return d;
 }
 
-/// Every three-dimensional fix that the recording would give.
+/// Every three-dimensional fix of the recording.
 inline std::vector<Fix> fixes_of(sensor_log::Description description, const std::string& folder) {
   description.gnss.withhold = {};
   Bench<sensor_log::Recorded> bench;
@@ -101,8 +101,8 @@ class Outages {
     return outcome;
   }
 
-  /// The whole recording, no fix withheld, against each fix that is valid in the air; against all of them
-  /// where none is.
+  /// The whole recording with all fixes, compared with each fix that is valid in the air; with all of them
+  /// when none is.
   Aided aided() const {
     Aided sums;
     std::size_t next = 0;
@@ -131,8 +131,8 @@ class Outages {
     VehicleState state;
   };
 
-  /// Flies the recording without what `withheld` names, and calls between(earlier, later) with each two
-  /// states in a row until it says false. Returns why that never came, or "".
+  /// Runs the recording without the fixes in `withheld`, and calls between(earlier, later) for two
+  /// consecutive states until it returns false. Returns the reason when it never does, or "".
   template <class Between>
   std::string each(const std::string& withheld, double duration_s, Between&& between) const {
     core::Overrides overrides = recipe_.overrides;
@@ -177,7 +177,7 @@ class Outages {
     return *last;
   }
 
-  /// Those of the description as well.
+  /// Windows, with those of the description.
   std::string windows(double from_s, double to_s) const {
     const std::string reported = windows();
     return reported.substr(0, reported.size() - 1) + (reported == "[]" ? "" : ", ") + window(from_s, to_s) +
@@ -232,7 +232,7 @@ class Outages {
   std::vector<Fix> fixes_;
 };
 
-/// Of `values`, linear between two of them in order.
+/// Quantile of `values`, with linear interpolation.
 inline double quantile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
   const double at = share * static_cast<double>(values.size() - 1);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The controllers of ROSplane 2.0 (controller_successive_loop.cpp, controller_total_energy.cpp,
-// controller_state_machine.cpp at ba7e114), written from their formulas, with the gains of its anaconda.yaml:
-// what Fulmar's laws are measured against. Beard & McLain, Small Unmanned Aircraft (2012), chapter 6.
-// Formulas, faults: README.
+// controller_state_machine.cpp at ba7e114), written from their formulas, with the gains of its anaconda.yaml,
+// as the reference for Fulmar's laws. Beard & McLain, Small Unmanned Aircraft (2012), chapter 6. Formulas,
+// faults: README.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -18,8 +18,8 @@ namespace fulmar::rosplane {
 enum class Law : std::uint8_t { successive_loops, total_energy };
 enum class Zone : std::uint8_t { take_off, climb, altitude_hold };
 
-/// I += Ts/2 (e + e_prev); undone when the output is cut by its limit: either way, so that a saturated loop
-/// cannot unwind. `mended`: only growth into the limit is refused.
+/// I += Ts/2 (e + e_prev); reverted when the output is limited, in either direction, so that a saturated loop
+/// cannot unwind. `mended`: only growth into the limit is reverted.
 struct Integrator {
   double I = 0, e_prev = 0;
 
@@ -27,7 +27,7 @@ struct Integrator {
     I += Ts / 2 * (e + e_prev);
     e_prev = e;
   }
-  /// sat( u0 + ki I, min, max ), with this step's integration taken back when it is cut.
+  /// sat( u0 + ki I, min, max ); the integration of this step is reverted when the output is limited.
   double output(double u0, double ki, double e, double min, double max, double Ts, bool mended) {
     const double before = I;
     add(e, Ts);
@@ -92,7 +92,7 @@ struct Controller {  // fills the roles `outer` and `inner` at once
   };
 
   Status activate(const Tick&, const Inputs&, const Params&, const Applied<Outputs>&) {
-    *this = {};  // there these are not set to anything
+    *this = {};  // ROSplane does not set these
     return Status::ok;
   }
 
@@ -104,7 +104,7 @@ struct Controller {  // fills the roles `outer` and `inner` at once
     out.attitude.roll_rad = hold ? course_to_roll(s, c, p, Ts) : 0;
     const auto [theta_c, delta_t] = p.law == Law::total_energy ? energy(s, c, p, Ts) : loops(s, c, p, Ts);
     out.attitude.pitch_rad = theta_c;
-    out.attitude.throttle_frac = std::clamp(delta_t, 0.0, 1.0);  // as the motor does
+    out.attitude.throttle_frac = std::clamp(delta_t, 0.0, 1.0);  // as by the motor
 
     out.actuators.throttle_frac = out.attitude.throttle_frac;
     out.actuators.aileron_rad = std::clamp(
@@ -153,7 +153,8 @@ struct Controller {  // fills the roles `outer` and `inner` at once
     const double K_err = 0.5 * p.mass * (Va_c * Va_c - Va * Va), K_ref = 0.5 * p.mass * Va_c * Va_c;
     const double U_err =
         p.mass * p.gravity * std::clamp(h_c - s.height_m, -p.max_alt_error, +p.max_alt_error);
-    if (!(K_ref > 0)) return {0, p.trim_t};  // there a division by zero, and what is not finite is sent as 0
+    // ROSplane divides by zero here, and sends 0 for a value that is not finite
+    if (!(K_ref > 0)) return {0, p.trim_t};
     const double E = (K_err + U_err) / K_ref, L = (U_err - K_err) / K_ref;
 
     double delta_t, theta_c;
@@ -171,8 +172,8 @@ struct Controller {  // fills the roles `outer` and `inner` at once
     return {p.cmd_takeoff_pitch, std::clamp<double>(delta_t, 0, p.max_takeoff_throttle)};
   }
 
-  /// Meant: delta_r = -y_kr s / (s + y_pwo) r. There what is stored has its sign changed already, and its
-  /// pole has the gain in it. The rudder's own sign: positive is nose left.
+  /// Intended law: delta_r = -y_kr s / (s + y_pwo) r. In ROSplane the stored value already has the opposite
+  /// sign, and the pole contains the gain. Sign of the rudder here: positive is nose left.
   double yaw_damper(double r, const Params& p, double Ts) {
     const double d = 2 + Ts * p.y_pwo, b = 2 * p.y_kr / d;
     const double pole = (2 - Ts * p.y_pwo) / d;
@@ -217,7 +218,7 @@ struct Controller {  // fills the roles `outer` and `inner` at once
 
   Zone zone_ = Zone::take_off;
   Integrator course_, altitude_, airspeed_, total_, balance_;
-  double delta_r_ = 0, r_prev_ = 0;  ///< delta_r as it is stored there: positive is nose right
+  double delta_r_ = 0, r_prev_ = 0;  ///< delta_r as stored in ROSplane: positive is nose right
 };
 
 }  // namespace fulmar::rosplane

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ROSplane's documented laws as components: what bench_laws compares Fulmar's with.
+// ROSplane's documented laws as components, as the reference of bench_laws.
 #include "controller.hpp"
 #include "follower.hpp"
 

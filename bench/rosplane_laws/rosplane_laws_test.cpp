@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ROSplane's formulas against numbers worked out by hand, its faults and what they are when mended, and one
-// seed of bench_laws.
+// ROSplane's formulas against numbers worked out by hand, its faults and their corrected forms, and one seed
+// of bench_laws.
 #include <doctest/doctest.h>
 #include <sys/wait.h>
 

@@ -18,8 +18,8 @@ struct Failing {
   };
   struct Outputs {
     Out<FaultRequest> fault;
-    Out<VehicleStatus> status;  // as it came, while the link holds
-    Out<VehicleState> state;    // as it came, but for what is valid of it
+    Out<VehicleStatus> status;  // unchanged, while the link works
+    Out<VehicleState> state;    // unchanged, except for its validity flags
   };
   struct Params {
     Choice<FaultTarget> what{FaultTarget::gyro, "that fails"};

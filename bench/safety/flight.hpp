@@ -24,8 +24,8 @@ namespace fulmar::safety_flights {
 
 namespace fs = std::filesystem;
 
-/// Of the airframe's own size: the hourglass is too small for all but the Anaconda. The X8 is thrown, unless
-/// it begins in the air.
+/// Geometry scaled to the airframe: the hourglass is too small for all but the Anaconda. The X8 is thrown,
+/// unless it begins in the air.
 inline std::string mission_text(const Row& row) {
   const std::string configs = FULMAR_SOURCE_DIR "/configs";
   const auto list = [](const std::string& s) { return s.empty() ? "" : ", " + s; };
@@ -77,10 +77,9 @@ inline std::string mission_text(const Row& row) {
          "}}\n"
          "  land: {params: {runway: {north: 0 m, east: 0 m, up: 0 m, heading: 135 deg, length: 600 m}, "
          "final_length: 800 m, circle_radius: 150 m}}\n" +
-         (x8 ? std::string(
-                   "  slc: {params: {roll_rate_limit: 0.5 rad/s") +  // in a gale its Dutch roll bears no more
-                   (thrown ? ", launch_acceleration: 15 m/s2, launch_delay: 0.3 s" : "") +
-                   "}}\n"
+         // in a gale the X8's Dutch roll needs this limit
+         (x8 ? std::string("  slc: {params: {roll_rate_limit: 0.5 rad/s") +
+                   (thrown ? ", launch_acceleration: 15 m/s2, launch_delay: 0.3 s" : "") + "}}\n"
              : "") +
          "phases:\n" + (thrown ? "  hold: {outer: {use: slc, set: {law: takeoff}}}\n" : "") +
          "  cruise: {next: [{to: home, when: \"guard.safety.answer == home or guard.safety.answer == "
@@ -89,12 +88,12 @@ inline std::string mission_text(const Row& row) {
 
 struct Flown {
   End end = End::aloft;
-  double reported_s = -1;      ///< from the failure; -1: never
+  double reported_s = -1;      ///< time from the failure; -1: never
   bool reported_else = false;  ///< a fault was reported that did not occur, or too early
-  bool in_order = false;       ///< all of the row's phases were flown
-  double touch_sink_mps = 0;   ///< true, at the first touch
-  double home_m = 0;           ///< true, from home where it stopped
-  double outside_m = -1e9;     ///< true, beyond the fence, at most
+  bool in_order = false;       ///< all phases of the row occurred
+  double touch_sink_mps = 0;   ///< true sink rate at the first contact
+  double home_m = 0;           ///< true distance from home at the end
+  double outside_m = -1e9;     ///< largest true distance outside of the fence
   double seconds = 0;          ///< from the failure to the ground
   std::string outcome;
   bool kept(const Row& row) const {
@@ -104,7 +103,7 @@ struct Flown {
   }
 };
 
-/// How far beyond the row's fence a position is; negative: inside.
+/// Distance of a position outside of the row's fence; negative: inside.
 inline double outside(const Row& row, const VehicleState& x) {
   const bool big = row.airframe != "anaconda", near = row.watch.find("fence: ") != std::string::npos;
   const double north = big ? 1200 : 600, east = big ? 600 : 350, west = big ? 1300 : 700;

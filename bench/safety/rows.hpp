@@ -17,19 +17,19 @@ inline const char* word(End end) {
 }
 
 struct Row {
-  std::string airframe{}, name{}, does{};  ///< what the aircraft does, in words
+  std::string airframe{}, name{}, does{};  ///< action of the aircraft
   std::string failing{};                   ///< parameters of the plugin `failing`
   std::string sim{}, watch{};              ///< parameters of the aircraft and of the monitor
   bool relayed = false;                    ///< status and state reach the monitor through `failing`
-  bool SafetyState::*cause = nullptr;      ///< that has to be told; none: nothing may be
+  bool SafetyState::*cause = nullptr;      ///< required report; null: no report is allowed
   double reported_within_s = 10;
   double at_s = 60;
-  bool may_leave = false;  ///< the fence: with the reason beside the row
+  bool may_leave = false;  ///< the fence; the reason is given with the row
   End end = End::on_ground;
-  std::vector<std::string> phases{};  ///< that have to be flown, in this order
-  double south_m = 0, up_m = 0;       ///< side and ceiling of the fence, where they are not the usual ones
-  double below_m = 0;                 ///< it fails below this height of the landing, not at a time
-  bool may_be_reported = false;       ///< as well as not: it lands before
+  std::vector<std::string> phases{};  ///< required phases, in this order
+  double south_m = 0, up_m = 0;       ///< side and ceiling of the fence, if not the usual ones
+  double below_m = 0;                 ///< the failure occurs below this height of the landing, not at a time
+  bool may_be_reported = false;       ///< a report is optional: it lands before
 };
 
 /// Before the take-off, in it, on final, and on the way back.
@@ -229,7 +229,7 @@ inline std::vector<Row> rows_of(const std::string& a) {
        .does = "glides to the nearest place or into the wind",
        .failing = "what: engine, kind: off",
        .cause = &S::engine_failed,
-       .reported_within_s = x8 ? 15.0 : 5.0,  // it needs little thrust, and sinks as little without
+       .reported_within_s = x8 ? 15.0 : 5.0,  // low thrust and low sink hide the failure
        .phases = {"glide", "roll_out"}},
       {.airframe = a,
        .name = "motor, in the climb",
@@ -267,7 +267,7 @@ inline std::vector<Row> rows_of(const std::string& a) {
                   .may_be_reported = big});
   if (big) return rows;
   for (Row& row : rows_of_takeoff_and_final(a)) rows.push_back(std::move(row));
-  // Two things at once: the graver one is answered.
+  // Two failures at once: the answer is that of the graver one.
   rows.push_back({.airframe = a,
                   .name = "radio, then the motor",
                   .does = "turns home, then glides",

@@ -22,19 +22,19 @@ namespace fulmar::sensor_faults {
 
 namespace fs = std::filesystem;
 
-inline constexpr double from_s = 85;   ///< of the fault: a minute after the take-off, on a straight
-inline constexpr double watch_s = 30;  ///< after its end
+inline constexpr double from_s = 85;   ///< begin of the fault: a minute after the take-off, on a straight
+inline constexpr double watch_s = 30;  ///< time after its end
 
 struct Flown {
-  double reported_s = -1;     ///< from the fault's begin; -1: never
+  double reported_s = -1;     ///< time from the begin of the fault; -1: never
   std::string reported_by{};  ///< a sensor's state, or a flag
-  std::string accused{};      ///< sensors that are in order, of which something was said
-  Each most{};                ///< errors from the fault's begin on
-  Each max_valid{};           ///< the same, of what was called valid
+  std::string accused{};      ///< working sensors with a report
+  Each most{};                ///< largest errors from the begin of the fault on
+  Each max_valid{};           ///< the same, of valid values
   Each step{};                ///< changes of the error from one tick to the next
-  double over_std = 0;        ///< airspeed error, at most, in deviations that the estimate says
-  double recovered_s = 0;     ///< from the fault's end on; -1: not within the flight
-  bool shown = false;         ///< some sample was not what it would have been
+  double over_std = 0;        ///< largest airspeed error, in reported standard deviations
+  double recovered_s = 0;     ///< from the end of the fault on; -1: not within the flight
+  bool shown = false;         ///< some sample was changed
   bool crashed = false;
 
  private:
@@ -61,7 +61,7 @@ inline fs::path mission_of(const Row& row, const std::string& set, const fs::pat
 
 class Watched {
  public:
-  /// `usual`: the errors of the same flight without fault, of which 1.5 times count as recovered.
+  /// `usual`: the errors of the same flight without a fault; 1.5 times these count as recovered.
   Watched(const Row& row, const core::Graph& graph, const Each& usual)
       : row_(row), flight_(graph, unlogged()) {
     for (std::size_t i = 0; i < whats; ++i) bound_[i] = std::max(1.5 * usual[i], least[i]);
@@ -88,7 +88,7 @@ class Watched {
   }
 
  private:
-  /// What of an error counts as recovered in any case.
+  /// Errors that count as recovered in any case.
   static constexpr Each least{4, 1, 5, 3, 1.5};
   static constexpr std::array<const char*, whats> flags{"attitude_valid", "velocity_valid", "position_valid",
                                                         "height_valid", "airspeed_valid"};
@@ -110,7 +110,7 @@ class Watched {
       core::request(flight_, "sim", "fault", FaultRequest{target, off ? FaultKind::off : FaultKind::none});
   }
 
-  /// Since the first sample that was not what it would have been; a limit may be reached late.
+  /// True from the first changed sample on; with a limit it may come late.
   bool spoilt(double t_s) {
     if (spoilt_s_ < 0 && (row_.wires.empty() || *at<double>(spoilt_) > 0.5)) spoilt_s_ = t_s;
     return spoilt_s_ >= 0;
@@ -162,7 +162,7 @@ class Watched {
   core::Source truth_, state_, health_, spoilt_;
 };
 
-/// `set`: parameters of the aircraft beside those of the row.
+/// `set`: parameters of the aircraft in addition to those of the row.
 inline Flown fly(const Row& row, unsigned seed, const Each& usual, const fs::path& folder,
                  const std::string& set = "") {
   core::Overrides overrides;

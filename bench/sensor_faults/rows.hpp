@@ -12,21 +12,21 @@
 
 namespace fulmar::sensor_faults {
 
-/// What an estimate says, and may be wrong in: deg, m/s, m, m, m/s.
+/// Evaluated quantities of an estimate: deg, m/s, m, m, m/s.
 enum What : std::size_t { attitude, velocity, position, height, airspeed, whats };
 using Each = std::array<double, whats>;
 
 struct Row {
   std::string name{}, words{};
-  std::string wires{};  ///< parameters of `tampered/Wires`, but `from`
+  std::string wires{};  ///< parameters of `tampered/Wires`, except `from`
   double lasts_s = 20;
   std::vector<FaultTarget> off{};           ///< by request, in place of the wires
   std::string sim{};                        ///< parameters of the aircraft, of the whole flight
-  std::vector<std::string> sensors{};       ///< that have to be named, of the port `health`
-  std::string unreported{}, unrecovered{};  ///< why it cannot be; "": it is, and the command holds it
-  Each most{4, 2, 10, 5, 3};                ///< errors from the fault on, of what is called valid
+  std::vector<std::string> sensors{};       ///< sensors that the port `health` must name
+  std::string unreported{}, unrecovered{};  ///< reason for an exception; "": required of the flight
+  Each most{4, 2, 10, 5, 3};                ///< errors of valid values from the fault on
   Each max_step{1e9, 1e9, 1e9, 1e9, 1e9};   ///< from one tick to the next
-  double max_over_std = 5;                  ///< of the airspeed, in deviations that the estimate claims
+  double max_over_std = 5;                  ///< of the airspeed, in reported standard deviations
 };
 
 constexpr std::array<std::pair<const char*, SensorHealth NavigationHealth::*>, 8> sensors{{

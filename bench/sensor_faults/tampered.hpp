@@ -20,25 +20,25 @@ namespace fulmar::tampered {
 
 enum class Kind : std::uint8_t {
   none,
-  gnss_jump,      ///< position off at once by `size` m north
-  gnss_drift,     ///< position moves away north by `size` m/s; the velocity says nothing of it
-  gnss_pull,      ///< position and velocity move away north together: `size` m/s, reached by `rate` m/s2
-  baro_step,      ///< `size` Pa at once
-  mag_stuck,      ///< the last sample again and again
+  gnss_jump,      ///< step of the position by `size` m north
+  gnss_drift,     ///< drift of the position by `size` m/s north; the velocity stays correct
+  gnss_pull,      ///< drift of position and velocity north: `size` m/s, reached by `rate` m/s2
+  baro_step,      ///< step by `size` Pa
+  mag_stuck,      ///< the last sample is repeated
   mag_motor,      ///< `size` T per ampere of the motor, forward and to the right in equal parts
   pitot_scale,    ///< pressure times `size`
-  pitot_offset,   ///< pressure and `size` Pa
-  pitot_blocked,  ///< the pressure that was there stays, with the sensor's noise
-  pitot_iced,     ///< pressure falls to nothing with the time constant `size` s
-  pitot_zeroed,   ///< what it reads is from now on called zero
-  imu_gap,        ///< no sample
-  gyro_clipped,   ///< no axis beyond +-`size` rad/s
-  accel_clipped,  ///< no axis beyond +-`size` m/s2
+  pitot_offset,   ///< pressure plus `size` Pa
+  pitot_blocked,  ///< the pressure at the begin stays, with the sensor's noise
+  pitot_iced,     ///< pressure decays to zero with the time constant `size` s
+  pitot_zeroed,   ///< the present reading becomes the zero
+  imu_gap,        ///< no samples
+  gyro_clipped,   ///< each axis limited to +-`size` rad/s
+  accel_clipped,  ///< each axis limited to +-`size` m/s2
   imu_vibration,  ///< white noise of `size` m/s2, and of a twentieth of it in rad/s
   imu_stamps,     ///< every tenth sample is stamped `size` s too early
-  imu_clock,      ///< every sample is
+  imu_clock,      ///< every sample is stamped `size` s too early
   gnss_stamps,    ///< every other fix is stamped `size` s too early
-  baro_stamps     ///< every sample is, and so comes from before the one before
+  baro_stamps     ///< every sample is stamped too early, before the previous one
 };
 
 struct Wires {
@@ -56,7 +56,7 @@ struct Wires {
     Out<Mag> mag;
     Out<Baro> baro;
     Out<Pitot> pitot;
-    Probe spoilt_ratio;  ///< 1 from the first sample on that is not what came, and after 0.1 s at a limit
+    Probe spoilt_ratio;  ///< 1 from the first changed sample on, and after 0.1 s at a limit
   };
   struct Params {
     Choice<Kind> kind{Kind::none, "what is spoilt", setup};
@@ -123,7 +123,7 @@ struct Wires {
       constexpr double radius_m = 6.36e6;  // along the meridian, at middle latitudes
       s.latitude_deg += north_m / radius_m * 180 / std::numbers::pi;
     };
-    const double begun_s = std::min(since_s_, p.size / p.rate);  // of a pull that still gathers speed
+    const double begun_s = std::min(since_s_, p.size / p.rate);  // while the pull still grows
     switch (kind_) {
       case Kind::gnss_jump: move(p.size); break;
       case Kind::gnss_drift: move(p.size * since_s_); break;

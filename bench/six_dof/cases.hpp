@@ -17,8 +17,8 @@ inline constexpr double degree = std::numbers::pi / 180, slug = 14.59390294,
 struct Case {
   const char *number, *what;
   MassProperties body;
-  double drag_area_m2 = 0;                    ///< CD S
-  Eigen::Vector3d damping_m3{0, 0, 0};        ///< -S b^2 Clp / 4 and the like: with rho V, moment per rate
+  double drag_area_m2 = 0;              ///< CD S
+  Eigen::Vector3d damping_m3{0, 0, 0};  ///< -S b^2 Clp / 4 and the others alike: with rho V, moment per rate
   double wind_mps = 0, wind_slope_per_s = 0;  ///< to the east: at sea level, and per metre of altitude
   int faulty = 0;                             ///< simulator that is left out, 0: none
   int faulty_airspeed = 0;                    ///< simulator whose airspeed is left out, 0: none
@@ -34,15 +34,15 @@ inline MassProperties brick() {
           slug_foot2 * Eigen::Vector3d(0.00189422, 0.006211019, 0.007194665).asDiagonal()};
 }
 
-/// models/brick_aero.dml: Clp = Cmq = Cnr = -1. Its drag is not in the case: all simulators fall as in
+/// models/brick_aero.dml: Clp = Cmq = Cnr = -1. Its drag is not in the case: all simulators give the fall of
 /// case 2.
 inline Eigen::Vector3d brick_damping() {
   const double S = 0.22222, b = 0.33333, c = 0.66667;
   return std::pow(foot, 4) * S / 4 * Eigen::Vector3d(b * b, c * c, b * b);
 }
 
-/// Simulator 2 leaves the others' attitude in case 2; simulator 6 tells in cases 7 and 8 a speed that the
-/// wind is not in.
+/// Simulator 2 has another attitude than the others in case 2; the airspeed of simulator 6 in cases 7 and 8
+/// excludes the wind.
 inline std::vector<Case> cases() {
   return {{"01", "dropped sphere without drag", sphere()},
           {.number = "02", .what = "tumbling brick without damping", .body = brick(), .faulty = 2},
@@ -94,7 +94,7 @@ class Fall {
     level_ = LocalLevel(earth_, x_.p_n);
   }
 
-  /// Adds what is compared to a recording.
+  /// Appends the compared quantities to a recording.
   void record(Recording& out) const {
     const RigidBody seen = level_.seen(x_);
     const Euler e = euler_from(seen.q_nb);
@@ -117,7 +117,7 @@ class Fall {
   }
 
  private:
-  /// In local axes, of a state seen from there.
+  /// In local axes, of a state in these axes.
   Eigen::Vector3d air_velocity(const RigidBody& seen) const {
     return seen.v_n - Eigen::Vector3d(0, case_.wind_mps - case_.wind_slope_per_s * seen.p_n.z(), 0);
   }

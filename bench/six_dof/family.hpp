@@ -43,8 +43,8 @@ inline std::vector<const Recording*> reporting(const std::vector<Recording>& all
   return out;
 }
 
-/// `difference(recording, i)` is a vector from the first simulator to a recording, whose median is taken
-/// component by component: wherever angles jump, differences do not.
+/// `difference(recording, i)` is a vector from the first simulator to a recording. The median is taken by
+/// component: angles may jump, but their differences do not.
 template <class Difference>
 Figure figure(const Signal& signal, const Recording& ours, const std::vector<const Recording*>& theirs,
               Difference difference) {
@@ -70,9 +70,9 @@ inline Eigen::Quaterniond attitude(const Recording& r, std::size_t i) {
 
 }  // namespace detail
 
-/// Attitude is compared twice: by its Euler angles, differences taken the short way round, as the report
-/// shows them; and by the rotation between two attitudes, which has no singular place: near a pitch of 90
-/// degrees roll and yaw of the simulators, and so the bar of these angles, grow beyond all use.
+/// Attitude is compared twice. Euler angles, with differences the short way, are those of the report. The
+/// rotation between two attitudes has no singularity: near a pitch of 90 degrees roll and yaw of the
+/// simulators, and so the bar of these angles, are useless.
 inline std::vector<Figure> compared(const Recording& ours, const std::vector<Recording>& all, const Case& c) {
   std::vector<Figure> out;
   const auto plain = [&](const Signal& signal, Column column, bool angle, int without) {

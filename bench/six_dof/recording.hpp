@@ -18,7 +18,7 @@
 
 namespace fulmar::six_dof {
 
-/// Of the files: a sentence, with file and line where there is one.
+/// A fault of the files: a message with file and line if known.
 struct Fault : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -46,7 +46,7 @@ enum Column : std::size_t {
 struct ColumnSpec {
   const char* name;
   double unit;
-  bool must_be;  ///< some simulators have three degrees of freedom, or do not tell their airspeed
+  bool must_be;  ///< some simulators have three degrees of freedom, or no airspeed
 };
 inline constexpr std::array<ColumnSpec, columns> column_specs{{{"altitudeMsl_ft", foot, true},
                                                                {"latitude_deg", 1, true},
@@ -64,7 +64,7 @@ inline constexpr std::array<ColumnSpec, columns> column_specs{{{"altitudeMsl_ft"
 
 struct Recording {
   int simulator = 0;
-  std::array<std::vector<double>, columns> of;  ///< empty: this simulator does not say
+  std::array<std::vector<double>, columns> of;  ///< empty: not recorded by this simulator
 
   bool has(Column c) const { return !of[c].empty(); }
   bool has_attitude() const { return has(roll) && has(pitch) && has(yaw); }
@@ -129,7 +129,7 @@ class RecordingFile {
     }
   }
 
-  /// Keeps the rows at tenths of a second: some simulators wrote more.
+  /// Keeps the rows at tenths of a second: some simulators have more.
   void add(const std::string& line) {
     const auto row = detail::cells(line);
     if (row.size() != width_) throw fault(six_dof_messages::cell_count_mismatch(row.size(), width_));
@@ -155,7 +155,7 @@ class RecordingFile {
   Recording recording_;
 };
 
-/// All that is recorded of a case, by number of the simulator.
+/// All recordings of a case, by number of the simulator.
 inline std::vector<Recording> recordings(const std::filesystem::path& folder, const std::string& number) {
   namespace fs = std::filesystem;
   std::error_code none;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The orbit that is flown at the end of the plan, around a single waypoint, or while the plan is empty.
+// The orbit at the end of the plan, around a single waypoint, or with an empty plan.
 #pragma once
 #include <cmath>
 #include <numbers>
@@ -10,7 +10,7 @@
 
 namespace fulmar::path {
 
-/// The circle, whether the aircraft is on it, and how far around it has gone.
+/// The circle, arrival on it, and the angle flown around it.
 class Circling {
  public:
   void begin(const RouteOrbit& orbit) {
@@ -18,17 +18,17 @@ class Circling {
     swept_rad_ = 0;
     on_orbit_ = false;
   }
-  /// At the end of a leg that touches the circle.
+  /// Called at the end of a leg that touches the circle.
   void enter(const VehicleState& state) {
     on_orbit_ = true;
     azimuth_rad_ = azimuth(state);
   }
-  /// The circle moves or changes its size; what was flown on it counts.
+  /// The circle moves or changes its size; the angle flown on it counts.
   void change(const RouteOrbit& orbit) { orbit_ = orbit; }
   void resize(double radius_m) { orbit_.radius_m = radius_m; }
 
   const RouteOrbit& orbit() const { return orbit_; }
-  /// Is the aircraft near enough to be on the circle, for the first time?
+  /// True at the first time that the aircraft is near enough to be on the circle.
   bool arrives(const VehicleState& state) {
     if (on_orbit_ || !(miss_m(state) < 0.1 * orbit_.radius_m)) return false;
     on_orbit_ = true;
@@ -38,13 +38,13 @@ class Circling {
     const double n = state.position_m.north - orbit_.north_m, e = state.position_m.east - orbit_.east_m;
     return std::abs(std::hypot(n, e) - orbit_.radius_m);
   }
-  /// Once on the circle: how far around it the aircraft has gone since the last step.
+  /// On the circle: adds the angle since the last step.
   void advance(const VehicleState& state) {
     const double azimuth_now = azimuth(state);
     if (on_orbit_) swept_rad_ += sign_of(orbit_.turn) * wrap_pi(azimuth_now - azimuth_rad_);
     azimuth_rad_ = azimuth_now;
   }
-  /// A full circle is taken off when it is complete.
+  /// True for a complete circle, which is then subtracted.
   bool complete() {
     if (!(swept_rad_ > 2 * std::numbers::pi)) return false;
     swept_rad_ -= 2 * std::numbers::pi;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When a circuit of the plan is complete.
+// Detects a complete circuit of the plan.
 #pragma once
 #include <cstdint>
 
 namespace fulmar::path {
 
-/// A circuit is complete when the waypoint at which it began is reached again, whatever was put in and taken
-/// out meanwhile.
+/// A circuit is complete when the waypoint at its begin is reached again, in spite of waypoints that were
+/// added or removed meanwhile.
 class Circuits {
  public:
-  /// A waypoint is reached. Is a circuit complete with it?
+  /// Called when a waypoint is reached. Returns true when a circuit is complete.
   bool reach(std::uint32_t id, std::uint32_t item) {
     if (!begun_) {
       begun_ = true;
@@ -25,13 +25,13 @@ class Circuits {
     legs_ = 0;
     return complete;
   }
-  /// Id of the waypoint at which it began; 0: none.
+  /// Id of the waypoint at the begin; 0: none.
   std::uint32_t begun_at() const { return id_; }
 
  private:
   bool begun_ = false;
-  std::uint32_t id_ = 0, item_ = 0;  // of the waypoint at which it began
-  std::uint32_t legs_ = 0;           // waypoints reached since
+  std::uint32_t id_ = 0, item_ = 0;  // of the waypoint at the begin
+  std::uint32_t legs_ = 0;           // number of waypoints reached since then
 };
 
 }  // namespace fulmar::path

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sideslip by which flare and roll turn the nose to the runway.
+// The sideslip that turns the nose to the runway in flare and roll.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,8 @@
 
 namespace fulmar::path {
 
-/// As far as `most_rad` goes; what is left of the error after a second is taken up once more, so the rudder
-/// need not be known well.
+/// Limited to `most_rad`. After a second the remaining error is corrected once, so that the power of the
+/// rudder need not be known exactly.
 class Decrab {
  public:
   void step(const LandingProgress& progress, const VehicleState& s, const Airframe& a, double most_rad,
@@ -31,10 +31,10 @@ class Decrab {
     else
       turn(off, progress.cross_m, most_rad, dt);
   }
-  /// Asked for.
+  /// Requested sideslip.
   double slip_rad() const { return slip_rad_; }
-  /// Bank that takes the side force of that sideslip, rudder included: m g sin(phi) = q S CY, B&M (4.18) and
-  /// (4.5).
+  /// Bank that balances the side force of that sideslip, rudder included: m g sin(phi) = q S CY, B&M (4.18)
+  /// and (4.5).
   double bank_rad(const VehicleState& s, const Airframe& a) const {
     const Derivatives &Y = a.aero.side, &N = a.aero.yaw;
     const double rudder = N.rudder_ratio != 0 ? -N.beta_ratio / N.rudder_ratio : 0;
@@ -45,13 +45,13 @@ class Decrab {
   }
 
  private:
-  /// Back to the centre line, by what is left of the rudder.
+  /// Steers back to the centre line with the remaining rudder.
   void steer(double off, double cross_m) {
     constexpr double steer_m = 15, steer_rad = 0.2, gain = 4, most_rad = 0.35;
     const double towards = std::clamp(cross_m / steer_m, -steer_rad, steer_rad);
     slip_rad_ = std::clamp(gain * (off + towards), -most_rad, most_rad);
   }
-  /// The bank may not suffice for slip and gust: an aircraft blown off the line flies less of the slip.
+  /// The bank may be too small for slip and gust: an aircraft that drifts off the line gets less slip.
   void turn(double off, double cross_m, double most_rad, double dt) {
     constexpr double within_s = 1, blown_m = 2;
     const double leeward_m = std::max(slip_rad_ > 0 ? -cross_m : cross_m, 0.0);

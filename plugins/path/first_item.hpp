@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The waypoint that a parameter asks to begin with.
+// The first waypoint, from a parameter.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -7,10 +7,10 @@
 
 namespace fulmar::path {
 
-/// A change of the parameter counts for the next adoption of a plan, once.
+/// A change of the parameter counts once, at the next adoption of a plan.
 class FirstItem {
  public:
-  /// Is it another one than before?
+  /// Returns true when it differs from the value before.
   bool change(std::int64_t item) {
     if (item == seen_) return false;
     seen_ = item;

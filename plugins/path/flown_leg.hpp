@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The leg that is flown: on which of its pieces, how far along it, and what comes behind it.
+// The active leg: its present piece, the progress on it, and the pieces behind it.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace fulmar::path {
 
-/// A leg of a route as a message carries it.
+/// A leg of a route in the form of its message.
 inline PathPiece piece_of(const RoutePiece& from, double airspeed_mps) {
   PathPiece piece;
   piece.kind = from.kind;
@@ -30,25 +30,25 @@ inline PathPiece piece_of(const RoutePiece& from, double airspeed_mps) {
   return piece;
 }
 
-/// A leg, the one behind it, and the progress along its pieces.
+/// A leg, the next leg, and the progress along its pieces.
 class FlownLeg {
  public:
-  /// At the beginning of one of its pieces. `item`: the waypoint that it leads to.
+  /// Starts at the begin of one of its pieces. `item`: the waypoint at its end.
   Path begin(const Route& route, const RouteLeg& leg, std::uint32_t item, std::size_t piece) {
     leg_ = leg;
     end_square_m2_ = unknown_std * unknown_std;
     along_m_ = 0;
     return change(route, item, piece);
   }
-  /// The plan has changed what comes behind it, and its airspeed; the aircraft stays where it is on it.
+  /// The plan has changed the next leg and the airspeed; the aircraft stays at its place on this leg.
   Path keep(const Route& route, std::uint32_t item) {
     leg_.airspeed_mps = route.airspeed_mps(item);
     return change(route, item, piece_);
   }
-  /// The same leg with a wider fillet at its end; the straight line before it goes on.
+  /// The same leg with a wider fillet at its end; the straight line before it stays active.
   Path widen(const Route& route, std::uint32_t item) {
     leg_ = route.leg(item);
-    std::size_t straight = leg_.count;  // its last: what leads there may be another number of pieces now
+    std::size_t straight = leg_.count;  // its last one: the number of pieces before it may have changed
     while (straight > 1 && leg_[straight - 1].kind != PathKind::line) --straight;
     return change(route, item, straight - 1);
   }
@@ -61,12 +61,12 @@ class FlownLeg {
   const Pose& end() const { return leg_.end; }
   const RouteLeg& next() const { return next_leg_; }
   const RoutePiece& piece() const { return leg_[piece_]; }
-  /// The piece behind this one, if it is the last of the leg.
+  /// The next piece, if it is the last of the leg.
   const RoutePiece* last_piece_next() const { return piece_ + 2 == leg_.count ? &leg_[piece_ + 1] : nullptr; }
   bool on_last_piece() const { return piece_ + 1 >= leg_.count; }
   double along_m() const { return along_m_; }
   bool past_piece() const { return !(along_m_ < piece().length_m); }
-  /// Closest so far to the end of the leg.
+  /// Smallest distance so far from the end of the leg.
   double miss_m() const { return std::sqrt(end_square_m2_); }
   double off_piece_m(const Vec3<Ned>& at) const;
   void put_progress_into(Path& path) const;
@@ -86,7 +86,7 @@ class FlownLeg {
   std::size_t piece_ = 0;
   double along_m_ = 0;        // on the piece; unwrapped on an arc
   double after_m_ = 0;        // length of the pieces behind it of the same curvature
-  double end_square_m2_ = 0;  // closest so far to the end of the leg
+  double end_square_m2_ = 0;  // smallest distance so far from the end of the leg
 };
 
 inline Path FlownLeg::begin_piece(const Route& route, std::size_t index) {
@@ -104,8 +104,8 @@ inline Path FlownLeg::begin_piece(const Route& route, std::size_t index) {
   return path;
 }
 
-/// What comes behind this piece: how far it is to the next change of curvature, and to which piece. A fillet
-/// is of two legs, and one arc to who looks ahead.
+/// Looks ahead from this piece: distance to the next change of curvature, and the piece there. A fillet
+/// belongs to two legs, but is one arc.
 inline void FlownLeg::look_ahead(const Route& route, Path& path) {
   const double kappa = piece().curvature();
   after_m_ = 0;
@@ -137,7 +137,7 @@ inline void FlownLeg::look_ahead(const Route& route, Path& path) {
   }
 }
 
-/// The piece that comes next, with those behind it that go on with its curvature.
+/// The next piece, with those behind it of the same curvature.
 inline void FlownLeg::foresee(const RouteLeg& leg, std::size_t index, bool next_leg_follows,
                               Path& path) const {
   path.has_next = true;
@@ -163,7 +163,7 @@ inline void FlownLeg::measure(const VehicleState& state) {
   if (piece_ + 1 == leg_.count) end_square_m2_ = std::min(end_square_m2_, n * n + e * e);
 }
 
-/// To the right of a line, outside of a circle: positive.
+/// Distance from the piece: positive to the right of a line, outside of a circle.
 inline double FlownLeg::off_piece_m(const Vec3<Ned>& at) const {
   const RoutePiece& piece = leg_[piece_];
   const double n = at.north - piece.north_m, e = at.east - piece.east_m;
@@ -171,7 +171,7 @@ inline double FlownLeg::off_piece_m(const Vec3<Ned>& at) const {
                                       : std::hypot(n, e) - piece.radius_m;
 }
 
-/// How much of the piece is left. The height of an arc is given where the aircraft is: no doubt about turns
+/// Remaining length of the piece. The height of an arc is that at the aircraft, which is unique on turns of
 /// more than half a circle.
 inline void FlownLeg::put_progress_into(Path& path) const {
   const RoutePiece& piece = leg_[piece_];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From anywhere onto a runway: a circle that touches the final approach, the glide slope, the flare, the
+// From any place onto a runway: a circle that touches the final approach, the glide slope, the flare, the
 // roll. Lines and circles are those of the vector field (Beard & McLain, Small Unmanned Aircraft (2012),
 // chapter 10); the flare is the exponential one of Stevens, Lewis & Johnson, Aircraft Control and Simulation
 // (2016), 4.6.
@@ -29,13 +29,13 @@ struct Landing {
       "Landing: circle onto the final approach, glide slope, flare, roll; go-around outside the limits.";
   struct Inputs {
     In<VehicleState> state;
-    Optional<GroundState> ground;    // of the touch-down; without it, what the state says of it
+    Optional<GroundState> ground;    // for the touch-down; without it, from the state
     Optional<VehicleStatus> status;  // the charge of the battery
   };
   struct Outputs {
     GuidanceCommand command;
     LandingProgress progress;
-    SideslipCommand sideslip;  // for the rudder: turns the nose to the runway before it touches
+    SideslipCommand sideslip;  // for the rudder: turns the nose to the runway before the touch-down
     Probe height_error_m;      // above the glide slope is positive
     OutQueue<Notice, 4> notices;
   };
@@ -72,7 +72,7 @@ struct Landing {
   void configure(const Params& p) {
     const double V = p.airframe->limits.airspeed_min_mps;
     const double flare =
-        p.flare_height / std::tan(p.pattern.glide_slope) + 2 * V;  // the slope's way, and two seconds
+        p.flare_height / std::tan(p.pattern.glide_slope) + 2 * V;  // along the slope, and two seconds
     const double needed = p.pattern.aim + flare + 0.5 * V * V / p.deceleration;
     height_off_m_ = 0;
     const std::string of = p.runway.given() ? "runway" : "plan.runway";
@@ -122,7 +122,7 @@ struct Landing {
   }
 
  private:
-  /// The place of the runway is not known yet: straight on.
+  /// The place of the runway is unknown: flies straight on.
   Status wait(const VehicleState& s, const Params& p, Outputs& out) {
     command_ = {};
     command_.course_rad = s.course_rad;
@@ -159,11 +159,11 @@ struct Landing {
     progress_.beyond_threshold_m = p.pattern.aim - progress_.along_m;
   }
 
-  /// Along and across the runway, and how much of it a landing takes in this wind.
+  /// Wind along and across the runway, and the length of a landing in it.
   void feel_wind(const VehicleState& s, const Params& p, double dt) {
     const double c = std::cos(site_.runway().heading_rad), e = std::sin(site_.runway().heading_rad);
     const Vec3<Ned> w = s.wind_valid ? s.wind_mps : Vec3<Ned>{};
-    constexpr double gusts_s = 5;  // a lull of one step begins no approach
+    constexpr double gusts_s = 5;  // a lull of one step must not start an approach
     progress_.head_wind_mps = head_.step(-(w.north * c + w.east * e), gusts_s, dt);
     progress_.cross_wind_mps = cross_.step(w.east * c - w.north * e, gusts_s, dt);
     const double V = capped(p.airframe->limits.airspeed_min_mps + faster_mps(s, p), p);
@@ -211,11 +211,12 @@ struct Landing {
         break;
       case LandingStage::roll_out:
         rolled_s_ += dt;
-        if (rolled_s_ < 4 && in.ground && in.ground->contact == Contact::air) {  // a bounce, or no touch-down
+        // a bounce, or a false touch-down
+        if (rolled_s_ < 4 && in.ground && in.ground->contact == Contact::air) {
           flare(s);
           break;
         }
-        // Along the runway: a wind that is strong enough rolls it back.
+        // Along the runway: a strong wind rolls it back.
         if ((rolled_s_ > 1 && s.ground_speed_mps * std::cos(course_error) < 1) || rolled_s_ > p.roll_time)
           stage = LandingStage::stopped;
         break;
@@ -235,7 +236,7 @@ struct Landing {
   void begin_approach(const Inputs& in, const Params& p) {
     constexpr double low_frac = 0.2;
     progress_.reason = refused_by_wind(p);
-    const bool low = in.status && in.status->battery_frac < low_frac;  // a battery that is not known is not
+    const bool low = in.status && in.status->battery_frac < low_frac;  // an unknown battery is not low
     if (progress_.reason == LandingReason::none || p.wind.wind == WindAnswer::warn || low ||
         refused_s_ > p.wind.wind_wait)
       progress_.stage = LandingStage::approach;
@@ -254,14 +255,14 @@ struct Landing {
     progress_.reason = why;
     ++progress_.go_arounds;
   }
-  /// An aircraft that still flies below the height of the runway has shown how far that height is off.
+  /// An aircraft in flight below the height of the runway shows the error of that height.
   void break_flare_off() {
     height_off_m_ += std::min(progress_.height_m, 0.0);
     broken_off_ = true;
     go_around(LandingReason::flare_long);
   }
 
-  /// Before the decision height: can this approach still end on the runway?
+  /// Before the decision height: reason why this approach cannot end on the runway.
   LandingReason missed(const VehicleState& s, const Params& p) const {
     if (p.go_around) return LandingReason::commanded;
     if (progress_.height_m < p.limits.decision_height) return LandingReason::none;
@@ -271,19 +272,20 @@ struct Landing {
     return std::abs(s.height_m - slope_height(p)) > p.limits.height_limit ? LandingReason::height
                                                                           : LandingReason::none;
   }
-  /// Seconds that a flare lasts whose sink falls with its height, B&M-like: dh/dt = -(t + (s - t) h / h0).
+  /// Duration of a flare, s, whose sink decreases with its height, B&M-like: dh/dt = -(t + (s - t) h / h0).
   double expected_flare_s(double slope_sink, const Params& p) const {
     const double ratio = std::max(slope_sink / p.touch_sink, 1.01);
     return p.flare_height / p.touch_sink * std::log(ratio) / (ratio - 1);
   }
-  /// In the flare: no touch-down, and no more runway left than a stop takes. Once: the next one lands.
+  /// In the flare: true without a touch-down when the remaining runway is the stopping distance. Once: the
+  /// next flare lands.
   bool too_long(const VehicleState& s, const Params& p) const {
     const double left = site_.runway().length_m - p.pattern.aim + progress_.along_m;
     const double stop = 0.5 * s.ground_speed_mps * s.ground_speed_mps / p.deceleration;
     return !broken_off_ && s.position_valid && flare_s_ > 5 && left < stop;
   }
-  /// Where no ground state is wired: it was asked to be much lower for a while and does not sink. The height
-  /// is off by metres, so it says little.
+  /// Without a ground state: true when a much lower height was commanded for a while and the aircraft does
+  /// not sink. The height may be wrong by metres, so it is no evidence.
   bool settled(const Inputs& in, double dt) {
     constexpr double asked_m = 1, still_mps = 0.15, for_s = 2;
     if (in.ground) return false;
@@ -293,7 +295,8 @@ struct Landing {
     return settled_s_ > for_s;
   }
 
-  /// What approach and flare are faster by: a steady wind's share, so that there is some ground speed.
+  /// Increase of the airspeed in approach and flare: a share of the steady wind, which keeps some ground
+  /// speed.
   double faster_mps(const VehicleState& s, const Params& p) const {
     if (!s.wind_valid) return 0;
     return p.wind_share * std::max(progress_.head_wind_mps, 0.0);
@@ -321,7 +324,7 @@ struct Landing {
     command_.airspeed_mps = capped(p.approach_ratio * limits.airspeed_min_mps + faster, p);
     switch (progress_.stage) {
       case LandingStage::flare: {
-        // From the sink of the slope to that of the touch-down as the height goes.
+        // From the sink of the slope to that of the touch-down, with the height.
         const double slope_sink = std::max(-command_.climb_rate_mps, p.touch_sink.value);
         const double left = std::clamp(progress_.height_m / p.flare_height, 0.0, 1.0);
         const double late_s = std::max(flare_s_ - 1.3 * expected_flare_s(slope_sink, p), 0.0);
@@ -329,8 +332,8 @@ struct Landing {
         constexpr double firmer_mps2 = 0.15;
         command_.climb_rate_mps =
             -std::max(sink, std::min<double>(p.touch_sink + firmer_mps2 * late_s, p.late_sink));
-        // A height that sinks so, not the rate alone: a law without an error learns nothing and keeps its
-        // trim's.
+        // A height that decreases at this rate, not the rate alone: without an error the law does not
+        // integrate and keeps its trim.
         flare_height_m_ = std::clamp(flare_height_m_ + command_.climb_rate_mps * dt, s.height_m - lead_m,
                                      s.height_m + lead_m);
         command_.height_m = flare_height_m_;
@@ -363,15 +366,15 @@ struct Landing {
   RunwaySite site_;
   GuidanceCommand command_;
   LandingProgress progress_;
-  double refused_s_ = 0;  ///< on the circle since the first approach that the wind refused
+  double refused_s_ = 0;  ///< time on the circle since the first approach that was rejected for wind
   double settled_s_ = 0, rolled_s_ = 0, flare_s_ = 0, flare_height_m_ = 0;
-  double height_off_m_ = 0;   ///< of the runway below the height that is given, shown by a flare
-  bool broken_off_ = false;   ///< a flare that lasted too long, once
+  double height_off_m_ = 0;   ///< of the runway below the given height, from an earlier flare
+  bool broken_off_ = false;   ///< the one flare that lasted too long has occurred
   LowPass head_, cross_;      ///< wind, m/s
-  std::uint32_t resets_ = 0;  ///< of the state, seen so far
+  std::uint32_t resets_ = 0;  ///< last counter of resets of the state
   LandingNotices notices_;
   Decrab decrab_;
-  static constexpr double lead_m = 1.5;  ///< of the flare's height before the aircraft
+  static constexpr double lead_m = 1.5;  ///< lead of the flare's height
 };
 
 }  // namespace fulmar::path

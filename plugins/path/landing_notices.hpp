@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One notice for each go-around, refusal and unusual end of a landing: the reason with its figure, and what
-// the aircraft does.
+// One notice for each go-around, rejected approach and unusual end of a landing: the reason with its figure,
+// and the action of the aircraft.
 #pragma once
 #include <cmath>
 
@@ -48,7 +48,7 @@ class LandingNotices {
     }
   }
 
-  /// A refusal is repeated for as long as it holds.
+  /// A rejection is repeated while it holds.
   void wind(const LandingProgress& before, const LandingProgress& now, Out& out) {
     constexpr std::int64_t repeat_ns = 30'000'000'000;
     const bool crosswind = now.reason == LandingReason::crosswind;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parameters of a landing: the way onto the runway, what ends an approach, and what the wind does to it.
+// Parameters of a landing: the way onto the runway, the conditions of a go-around, and the effect of wind.
 #pragma once
 #include "fulmar/plugin.hpp"
 #include "runway_site.hpp"
@@ -20,7 +20,7 @@ inline Pattern pattern_of(const PatternParams& p) {
   return {p.glide_slope, p.aim, p.final_length, p.circle_radius, p.circle};
 }
 
-/// What is looked at before the decision height.
+/// Conditions before the decision height.
 struct GoAroundLimits {
   Param decision_height{12, "m", 1, 100, "height above the runway below which no go-around starts"};
   Param cross_limit{8, "m", 0.5, 100,
@@ -29,7 +29,7 @@ struct GoAroundLimits {
                      "glide slope error that starts a go-around below twice the decision height"};
 };
 
-/// What the wind does to an approach: refuse it and stay on the circle, or fly it with a warning.
+/// Effect of wind on an approach: stay on the circle, or approach with a warning.
 enum class WindAnswer : std::uint8_t { refuse, warn };
 
 struct WindLimits {

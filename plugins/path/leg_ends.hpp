@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds a waypoint, and the leg that is flown, in a plan that was changed.
+// Finds a waypoint, and the active leg, in a plan that was changed.
 #pragma once
 #include <cstdint>
 
@@ -19,7 +19,7 @@ inline std::uint32_t find_id(const Plan& plan, std::uint32_t id) {
   return i;
 }
 
-/// The points where the leg begins and ends, by which it is recognised after a change of the plan.
+/// The points at begin and end of the leg, which identify it after a change of the plan.
 class LegEnds {
  public:
   void remember(const Route& route, const Plan& plan, std::uint32_t item) {
@@ -29,8 +29,7 @@ class LegEnds {
   void remember_point(const Vec3<Ned>& point) { target_ = point; }
   bool ends_at(const Vec3<Ned>& point) const { return same_spot(point, target_); }
   bool begins_at(const Vec3<Ned>& point) const { return same_spot(point, from_); }
-  /// Index of the waypoint where it ends, the one nearest to `near` in the list; the plan's size when there
-  /// is none.
+  /// Index of the waypoint at its end, the one nearest to `near` in the list; the plan's size for none.
   std::uint32_t find_target(const Plan& plan, std::uint32_t near) const {
     const std::uint32_t n = plan.waypoints.count;
     for (std::uint32_t d = 0; d < n || d <= near; ++d) {  // the list may have become shorter than `near`

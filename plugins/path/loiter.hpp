@@ -53,7 +53,7 @@ struct Loiter {
     c.climb_rate_mps = std::abs(left) > most ? std::copysign(p.rate, left) : 0;
     c.airspeed_mps = p.airspeed > 0 ? p.airspeed.value : p.airframe->limits.airspeed_cruise_mps;
     const double side = p.turn == Turn::right ? 1 : -1;
-    if (!s.position_valid || !s.height_valid) {  // round through the air, as wide
+    if (!s.position_valid || !s.height_valid) {  // a circle through the air, of the same radius
       c.course_rad = s.course_rad;
       c.roll_feedforward_rad = s.attitude_valid && s.velocity_valid
                                    ? bank_for(side / p.radius, s.airspeed_mps, 0, p.field.roll_max)
@@ -79,7 +79,7 @@ struct Loiter {
     asked_m_ = taken_at_m_ = s.height_m;
     progress_ = {};
     azimuth_known_ = false;
-    // Beside the aircraft, so that it is on the circle, along its tangent.
+    // Next to the aircraft, so that it is on the circle, along its tangent.
     const double side = p.turn == Turn::right ? 1 : -1;
     north_m_ = s.position_m.north - side * p.radius * std::sin(s.course_rad);
     east_m_ = s.position_m.east + side * p.radius * std::cos(s.course_rad);
@@ -93,7 +93,7 @@ struct Loiter {
                                             : Vec3<Ned>{north_m_, east_m_, -asked_m_};
     return path;
   }
-  /// Laps count near the circle alone: on the way to it the azimuth says nothing.
+  /// Laps count near the circle only: on the way to it the azimuth has no meaning.
   void count(const VectorField::Aim& aim, const VehicleState& s, const Params& p, double side,
              double wanted) {
     constexpr double near_ratio = 0.3, level_m = 3;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Follows the route of the plan piece by piece: join, legs, final orbit. Beard & McLain, Small Unmanned
-// Aircraft (2012), chapter 11, with fillets and Dubins paths treated alike as pieces whose end is a length
-// along them, so that no half-plane can be missed.
+// Aircraft (2012), chapter 11. Fillets and Dubins paths are pieces whose end is a length along them, so that
+// no half-plane can be missed.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -57,7 +57,7 @@ struct Manager {
   }
   Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out);
   Status activate(const Tick&, const Inputs&, const Params&, const Outputs&) {
-    mode_ = Mode::idle;  // take up the plan from where the aircraft is by then, at the same waypoint
+    mode_ = Mode::idle;  // resume the plan from the position at that time, at the same waypoint
     return Status::ok;
   }
 
@@ -78,7 +78,7 @@ struct Manager {
 
   Mode mode_ = Mode::idle;
   std::uint32_t item_ = 0;
-  std::uint32_t jumps_ = 0, revision_ = 0;  // of the plan that was adopted
+  std::uint32_t jumps_ = 0, revision_ = 0;  // of the adopted plan
   FirstItem first_item_;
   LegEnds ends_;
   WideCorners wide_;
@@ -99,7 +99,7 @@ inline Status Manager::step(const Tick& tick, const Inputs& in, const Params& p,
   const VehicleState& state = *in.state;
   const Plan& plan = *in.plan;
   const Route route(plan, wide_);
-  // Nothing is known of the progress: the path that was published stays in force.
+  // The progress is unknown: the last path stays in force.
   if (!reckoning_.located(state, tick.now_ns, p.reckon_std, p.reckon_time)) {
     out.progress = progress_;
     return Status::degraded;
@@ -116,13 +116,12 @@ inline Status Manager::step(const Tick& tick, const Inputs& in, const Params& p,
   return state.position_valid ? Status::ok : Status::degraded;
 }
 
-/// Takes up a plan that is new or changed. The waypoint that is flown to stays the same one if it is still
-/// there.
+/// Adopts a new or changed plan. The target waypoint stays the same if it still exists.
 inline void Manager::adopt(const Route& route, const Plan& plan, const VehicleState& state, const Params& p) {
   const std::optional<std::uint32_t> first = first_item_.take();
   const bool was_empty = progress_.items == 0,
              jump = first || plan.jumps != jumps_ || was_empty || revision_ == 0;
-  // The waypoint at which the circuit began was taken out: it begins with the next one that is reached.
+  // The waypoint at the begin of the circuit was removed: the circuit begins at the next one.
   if (circuits_.begun_at() != 0 && find_id(plan, circuits_.begun_at()) == plan.waypoints.count)
     circuits_ = {};
   wide_.fit(route, plan);
@@ -145,7 +144,7 @@ inline void Manager::adopt(const Route& route, const Plan& plan, const VehicleSt
 
 inline void Manager::adopt_empty(const Route& route, const VehicleState& state, bool was_empty,
                                  double hold_height_m) {
-  if (was_empty && mode_ != Mode::idle) return circling_.resize(route.radius_m());  // go on with the orbit
+  if (was_empty && mode_ != Mode::idle) return circling_.resize(route.radius_m());  // keep the orbit
   item_ = 0;
   circuits_ = {};
   progress_.finished = false;
@@ -166,7 +165,7 @@ inline void Manager::adopt_point(const Route& route, const Plan& plan, const Veh
   begin_orbit(orbit);
 }
 
-/// Which piece of a leg is nearest to a point.
+/// Piece of a leg that is nearest to a point.
 inline std::size_t nearest_piece(const RouteLeg& leg, const Vec3<Ned>& at) {
   double best_m = unknown_std;
   std::size_t piece = 0;
@@ -186,7 +185,7 @@ inline std::size_t nearest_piece(const RouteLeg& leg, const Vec3<Ned>& at) {
 inline void Manager::keep_or_join(const Route& route, const Plan& plan, const VehicleState& state) {
   const std::uint32_t n = route.size(), k = ends_.find_target(plan, item_);
   if (k == n) return begin_join(route, state, std::min(item_, n - 1));
-  if (mode_ == Mode::orbit) {  // the end of the plan was reached; it goes on if waypoints came behind it
+  if (mode_ == Mode::orbit) {  // the end of the plan was reached; flight continues if waypoints were added
     if (!route.closed() && k + 1 == n) {
       item_ = k;
       return circling_.change(route.final_orbit());
@@ -266,7 +265,7 @@ inline void Manager::reach(const Route& route, const VehicleState& state) {
   begin_leg(route, leg, Mode::leg, route.after(item_), 0);
 }
 
-/// On the final orbit, around a single waypoint, or around nothing. Around a single waypoint of a circuit
+/// On the final orbit, around a single waypoint, or with an empty plan. Around a single waypoint of a circuit
 /// each full circle counts.
 inline void Manager::circle(const Route& route, const VehicleState& state) {
   circling_.advance(state);

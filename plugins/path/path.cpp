@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a list of waypoints to a course: the planner keeps the list, the manager the piece of path to be flown
-// now, the vector field follows it.
+// From a list of waypoints to a course: the planner keeps the list, the manager selects the active piece of
+// path, the vector field follows it.
 #include "landing.hpp"
 #include "loiter.hpp"
 #include "manager.hpp"

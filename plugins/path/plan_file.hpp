@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a plan file may hold. It becomes a Plan when the planner is configured.
+// Content of a plan file. It becomes a Plan when the planner is configured.
 #pragma once
 #include "fulmar/msg/plan.hpp"
 #include "fulmar/msg/runway.hpp"
@@ -26,14 +26,14 @@ struct PlanFile {
   double turn_radius_m = 50;       ///< radius of turns
   List<PlanFileWaypoint, 1024> waypoints;
   Runway runway;       ///< runway of a landing with this plan
-  bool given = false;  // false: no plan at all
+  bool given = false;  // false: no plan
 };
 
 }  // namespace fulmar::path
 
 namespace fulmar {
 
-/// What no aircraft of this size flies is a unit mistaken.
+/// Bounds beyond the range of small aircraft detect a wrong unit.
 template <>
 inline constexpr std::array<FieldRange, 8> field_ranges<path::PlanFileWaypoint>{{{"north_m", -1e5, 1e5},
                                                                                  {"east_m", -1e5, 1e5},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a plan asks of its aircraft and of its place: waypoints inside the fence, airspeed and bank that the
-// airframe has.
+// Checks of a plan against its aircraft and place: waypoints inside the fence, airspeed and bank within the
+// limits of the airframe.
 #pragma once
 #include <array>
 #include <cmath>
@@ -21,7 +21,7 @@ namespace fulmar::path {
 }
 inline std::string path_of_waypoint(std::size_t i) { return "plan.waypoints[" + std::to_string(i) + "]"; }
 
-/// Refuses a waypoint outside the fence. One that waits for the origin is not looked at.
+/// Rejects a waypoint outside the fence. One that waits for the origin is not checked.
 inline void check_fence(const Plan& plan, const safety::Fence& fence, const Origin& origin) {
   safety::Polygon polygon;
   polygon.set(fence, origin);
@@ -38,7 +38,7 @@ inline void check_fence(const Plan& plan, const safety::Fence& fence, const Orig
   }
 }
 
-/// A warning of an airspeed that the airframe does not fly; "" of one that it does.
+/// A warning of an airspeed outside of the airframe's limits; "" for one inside.
 inline std::array<char, 96> airspeed_doubt(const Plan& plan, const FlightLimits& limits) {
   std::array<char, 96> words{};
   const auto look = [&](double Va) {
@@ -52,7 +52,7 @@ inline std::array<char, 96> airspeed_doubt(const Plan& plan, const FlightLimits&
   return words;
 }
 
-/// The same of a turn radius that takes more bank than the airframe has. r = Va^2 / (g tan phi).
+/// The same for a turn radius that needs more bank than the limit. r = Va^2 / (g tan phi).
 inline std::array<char, 96> radius_doubt(const Plan& plan, const FlightLimits& limits) {
   constexpr double g_mps2 = 9.80665, degrees = 180 / std::numbers::pi;
   std::array<char, 96> words{};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keeps the list of waypoints: from a file, and from edits that come in flight. A bad edit is answered with a
-// reason and changes nothing.
+// Keeps the list of waypoints: from a file, and from edits in flight. A bad edit is answered with a reason
+// and has no effect.
 #pragma once
 #include <cmath>
 #include <memory>
@@ -26,13 +26,13 @@ struct Planner {
   struct Inputs {
     Optional<VehicleState> state;  // for its origin
     Queue<PlanEdit> edits;         // answered by `results` alone
-    Request<PlanEdit> edit;        // answered at once as well
+    Request<PlanEdit> edit;        // also answered at once
   };
   struct Outputs {
     Out<Plan> plan;
-    Probe refused_ratio;  // edits refused or lost since the start
+    Probe refused_ratio;  // edits rejected or lost since the start
     OutQueue<PlanEditResult, 64> results;
-    OutQueue<Notice, 4> notices;  // edits refused, for people
+    OutQueue<Notice, 4> notices;  // reports of rejected edits
   };
   struct Params {
     Record<PlanFile> plan{"waypoints; without it the plan is empty"};
@@ -48,19 +48,19 @@ struct Planner {
   Status step(const Tick&, const Inputs& in, const Params&, Outputs& out);
 
  private:
-  static constexpr double closest_m = 1;     // closer waypoints are one place to the route
-  static constexpr double farthest_m = 1e5;  // a local tangent plane ends somewhere
+  static constexpr double closest_m = 1;     // closer waypoints are one place for the route
+  static constexpr double farthest_m = 1e5;  // limit of a local tangent plane
 
-  /// Edits that take effect together: they are made in a copy.
+  /// Edits that take effect together, made in a copy of the plan.
   struct Group {
     std::uint32_t number = 0, size = 0, taken = 0;  // number 0: none is open
-    std::uint32_t last_id = 0;                      // of the edit that came last
-    std::uint64_t changes = 0;                      // of the plan, when the group began
+    std::uint32_t last_id = 0;                      // of the last edit
+    std::uint64_t changes = 0;                      // of the plan, at the begin of the group
     bool refused = false, by_request = false;
     Plan plan;
   };
 
-  using Reason = std::optional<Text<80>>;  // why an edit or a waypoint is refused; empty: it is not
+  using Reason = std::optional<Text<80>>;  // reason of a rejection; empty: none
 
   Reason take(const Tick& tick, const PlanEdit& edit, bool by_request, Outputs& out);
   Reason take_into_group(const PlanEdit& edit, PlanEditResult& result);
@@ -68,7 +68,7 @@ struct Planner {
   void begin_group(const Tick& tick, const PlanEdit& edit, bool by_request, Outputs& out);
   void drop_group(const Tick& tick, const char* reason, Outputs& out);
   void report(const Tick& tick, const PlanEditResult& result, Outputs& out);
-  Text<96> words_of(const PlanEditResult& result) const;  // of a refusal
+  Text<96> words_of(const PlanEditResult& result) const;  // text of a rejection
   Reason apply(Plan& plan, PlanEdit edit, bool alone, std::uint32_t& waypoint_id);
   Reason set(Plan& plan, const PlanEdit& edit) const;
   void put(Plan& plan, const PlanEdit& edit, const Waypoint& w) const;
@@ -88,8 +88,8 @@ struct Planner {
   double lowest_m_ = 0;
   LocalFrame frame_;
   bool origin_known_ = false;
-  bool doubtful_ = true;       // what the plan asks of the airframe has not been looked at
-  bool changed_ = true;        // the plan has not been published as it is now
+  bool doubtful_ = true;       // the plan has not been checked against the airframe
+  bool changed_ = true;        // the plan has changed since its last publication
   std::uint64_t changes_ = 0;  // edits in force
   std::uint32_t next_id_ = 1;
   std::uint32_t refused_ = 0, unreported_ = 0;

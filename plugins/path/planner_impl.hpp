@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the planner takes edits: one by one, or in groups that are made in a copy of the plan and take its
-// place as a whole.
+// Edits of the plan: one by one, or in groups that are made in a copy of the plan and replace it together.
 #pragma once
 #include <algorithm>
 
@@ -9,7 +8,7 @@
 
 namespace fulmar::path {
 
-/// Empty when taken, else why not; then nothing has changed.
+/// Empty on success, else the reason; the plan is then unchanged.
 inline Planner::Reason Planner::take(const Tick& tick, const PlanEdit& edit, bool by_request, Outputs& out) {
   PlanEditResult result;
   result.id = edit.id;
@@ -46,7 +45,7 @@ inline void Planner::begin_group(const Tick& tick, const PlanEdit& edit, bool by
   group_.plan = plan_;
 }
 
-/// An open group that can no longer take effect: told once, by its last edit.
+/// An open group that can no longer take effect: reported once, for its last edit.
 inline void Planner::drop_group(const Tick& tick, const char* reason, Outputs& out) {
   if (group_.number == 0 || group_.refused) return;
   group_.refused = true;
@@ -97,8 +96,8 @@ inline Text<96> Planner::words_of(const PlanEditResult& result) const {
                         : fitted<96>(path_messages::edit_refused_again, result.id, reason, unreported_);
 }
 
-/// To the asker, and, when refused, to people: each reason, but one that comes again and again once a second,
-/// with the number of those between.
+/// Reports to the sender and, for a rejection, as a notice. Each reason is reported; a repeated one once a
+/// second, with the number of repetitions.
 inline void Planner::report(const Tick& tick, const PlanEditResult& result, Outputs& out) {
   out.results.push(result, tick.now_ns);
   if (result.accepted) return;
@@ -116,8 +115,8 @@ inline void Planner::report(const Tick& tick, const PlanEditResult& result, Outp
   unreported_ = 0;
 }
 
-/// Empty when done, else why not; then nothing has changed. `alone`: the plan that it makes is in force at
-/// once, else its group is looked at as a whole.
+/// Empty on success, else the reason; the plan is then unchanged. `alone`: the resulting plan takes effect at
+/// once, else its group is checked as a whole.
 inline Planner::Reason Planner::apply(Plan& plan, PlanEdit edit, bool alone, std::uint32_t& waypoint_id) {
   if (edit.setting != PlanSetting::none) return set(plan, edit);
   auto& list = plan.waypoints;
@@ -153,7 +152,7 @@ inline Planner::Reason Planner::apply(Plan& plan, PlanEdit edit, bool alone, std
   return {};
 }
 
-/// Of the plan as a whole.
+/// Changes settings of the plan as a whole.
 inline Planner::Reason Planner::set(Plan& plan, const PlanEdit& edit) const {
   switch (edit.setting) {
     case PlanSetting::end:
@@ -174,7 +173,7 @@ inline Planner::Reason Planner::set(Plan& plan, const PlanEdit& edit) const {
   }
 }
 
-/// An edit that is in order, at its index.
+/// Applies a valid edit at its index.
 inline void Planner::put(Plan& plan, const PlanEdit& edit, const Waypoint& w) const {
   auto& list = plan.waypoints;
   const std::uint32_t at = edit.index, n = list.count;
@@ -242,7 +241,7 @@ inline Planner::Reason Planner::fault_of_neighbours(const Waypoint& w, const Way
   return {};
 }
 
-/// Of the plan that a group makes: on the way there waypoints may have been anywhere.
+/// Checks the resulting plan of a group: in between waypoints may be anywhere.
 inline Planner::Reason Planner::fault_of_spacing(const Plan& plan) const {
   for (std::uint32_t i = 1; i < plan.waypoints.count; ++i)
     if (close(plan.waypoints[i - 1], plan.waypoints[i]))
@@ -257,7 +256,8 @@ inline void Planner::resolve(Waypoint& w) const {
   }
 }
 
-/// Geodetic waypoints had no height above the origin until now. A plan with one too low is not published.
+/// Geodetic waypoints had no height above the origin until now. A plan with one that is too low is not
+/// published.
 inline void Planner::report_unflyable(const Tick& tick, Outputs& out) {
   for (std::uint32_t i = 0; i < plan_.waypoints.count; ++i) {
     const Reason fault = fault_of(plan_.waypoints[i]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long a position is good enough for the plan when no satellites tell it any more: the estimator reckons
-// on from air data and the wind that it has learnt, and says how far it may be off.
+// Validity of a position without satellites: the estimator continues by dead reckoning from air data and the
+// estimated wind, and reports its standard deviation.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -13,9 +13,9 @@ namespace fulmar::path {
 
 class Reckoning {
  public:
-  /// Whether the plan can be flown by this position: a valid one, or one that has been and is reckoned on.
-  /// Once it was too far off it stays so until the next valid one, whatever deviation is said later: who
-  /// circles does not go on for a second.
+  /// True when the position is good enough for the plan: a valid one, or dead reckoning from a valid one.
+  /// After it was too inaccurate it stays unusable until the next valid one, for any later standard
+  /// deviation: otherwise an aircraft on a circle would continue for a second.
   bool located(const VehicleState& s, std::int64_t now_ns, double max_std_m, double max_s) {
     if (s.position_valid) {
       lost_ns_.reset();

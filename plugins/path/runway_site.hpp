@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The runway of a landing: where it is in the local frame, the circle and the line that lead onto it, and the
-// checks that a set-up has to pass.
+// The runway of a landing: its place in the local frame, the circle and the line that lead onto it, and the
+// checks at set-up.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@
 
 namespace fulmar::path {
 
-/// What the pattern takes from the parameters of the landing.
+/// Parameters of the landing that define the pattern.
 struct Pattern {
   double glide_slope_rad = 0.07, aim_m = 50, final_length_m = 400, circle_radius_m = 70;
   Turn circle = Turn::left;
@@ -25,7 +25,7 @@ struct Pattern {
 
 class RunwaySite {
  public:
-  /// Takes the record `runway`, called `name` in messages. Throws when it is not complete.
+  /// Takes the record `runway`, called `name` in messages. Throws when it is incomplete.
   void take(const Runway& runway, const std::string& name, bool from_plan) {
     runway_ = runway;
     const auto given = [](double a, double b, double c) {
@@ -42,7 +42,7 @@ class RunwaySite {
       throw std::runtime_error(fulmar::located(name, path_messages::runway_place_ambiguous()).line());
     located_ = local == 3;
   }
-  /// A geodetic runway, once the origin of the local frame is given.
+  /// Places a geodetic runway, once the origin of the local frame is known.
   void put(double lat_deg, double lon_deg, double alt_m) {
     if (located_) return;
     const Eigen::Vector3d p_n =
@@ -58,7 +58,7 @@ class RunwaySite {
   double fix_height(const Pattern& p) const {
     return runway_.up_m + std::tan(p.glide_slope_rad) * (p.final_length_m + p.aim_m);
   }
-  /// The centre line as a path, from the point where the slope meets it, down by the slope.
+  /// The centre line as a path, from the foot of the slope, down along the slope.
   Path final_approach(const Pattern& p) const {
     const double c = std::cos(runway_.heading_rad), s = std::sin(runway_.heading_rad);
     Path path;
@@ -68,7 +68,7 @@ class RunwaySite {
                             std::sin(p.glide_slope_rad)};
     return path;
   }
-  /// Touches the centre line where the final approach begins.
+  /// Touches the centre line at the begin of the final approach.
   Path circle(const Pattern& p) const {
     const double c = std::cos(runway_.heading_rad), s = std::sin(runway_.heading_rad);
     const double side = p.circle == Turn::right ? 1 : -1, R = p.circle_radius_m;
@@ -81,7 +81,7 @@ class RunwaySite {
     return path;
   }
 
-  /// Refuses a fence that the way onto the runway, or along it again, leaves or comes too near to.
+  /// Rejects a fence that the way onto the runway, or along it again, leaves or comes too near to.
   void within_fence(const safety::Fence& record, const Origin& origin, double margin_m,
                     const Pattern& p) const {
     safety::Polygon fence;
@@ -125,8 +125,7 @@ class RunwaySite {
   bool located_ = false;
 };
 
-/// A slope above which the aircraft stays for good would lead to a go-around each time. A head wind makes the
-/// sink smaller.
+/// A slope that the aircraft cannot follow would lead to a go-around each time. A head wind reduces the sink.
 inline void check_slope(const FlightLimits& limits, double approach_ratio, double glide_slope_rad) {
   const double V = std::min(approach_ratio * limits.airspeed_min_mps, limits.airspeed_cruise_mps);
   const double sink = V * std::sin(glide_slope_rad), most = limits.sink_rate_max_mps;

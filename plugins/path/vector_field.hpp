@@ -19,7 +19,7 @@
 
 namespace fulmar::path {
 
-/// How lines, orbits and curves are approached. A group of parameters, of whoever follows them.
+/// Parameters of the approach to lines, orbits and curves, for each component that follows them.
 struct FieldParams {
   Param chi_infinity{1.05, "rad", 0.1, 1.57, "approach angle to a line at large distance"};
   Param k_path{0.05, "1/m", 0.001, 1, "gain of the approach to a line, at the reference speed"};
@@ -56,11 +56,11 @@ struct VectorField {
 
   Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out);
 
-  /// The path where the aircraft is, and the course that leads onto it.
+  /// Nearest point of the path, and the course that leads onto it.
   struct Aim {
     double path_course = 0, cross = 0, chi_c = 0, height = 0, kappa = 0, climb = 0;
   };
-  // `k`: what the gains are multiplied by at this ground speed
+  // `k`: factor of the gains at this ground speed
   static Aim at_line(const Path& path, const VehicleState& s, const FieldParams& p, double k);
   static Aim at_orbit(const Path& path, const VehicleState& s, const FieldParams& p, double k);
   static Aim at_curve(const Path& path, const VehicleState& s, const FieldParams& p, double k);
@@ -72,8 +72,8 @@ struct VectorField {
   }
 
  private:
-  /// Nobody knows where the path is: a circle through the air to the right, at the height and speed that were
-  /// last asked for. Straight on as long as nobody knows the attitude either.
+  /// The place of the path is unknown: a circle through the air to the right, at the last commanded height
+  /// and speed. Straight on while the attitude is unknown too.
   Status wait(const Tick& tick, const VehicleState& state, const Params& p, Outputs& out) {
     constexpr double g = 9.80665;
     const bool circles = state.attitude_valid && state.velocity_valid;
@@ -107,7 +107,7 @@ struct VectorField {
 inline double bank_for(double kappa, double Vg, double chi_minus_psi, double roll_max) {
   constexpr double g = 9.80665;
   const double crab =
-      std::max(std::cos(chi_minus_psi), 0.5);  // beyond 60 deg of crab the formula means nothing
+      std::max(std::cos(chi_minus_psi), 0.5);  // beyond 60 deg of crab the formula is not valid
   return std::clamp(std::atan(Vg * Vg * kappa / (g * crab)), -roll_max, roll_max);
 }
 
@@ -144,8 +144,8 @@ inline VectorField::Aim VectorField::at_orbit(const Path& path, const VehicleSta
   return aim;
 }
 
-/// As its tangent where it is closest. The bank is that of the place where the aircraft will be when it has
-/// rolled.
+/// Follows the tangent at the nearest point. The bank is that of the point that the aircraft reaches after
+/// the time to roll.
 inline VectorField::Aim VectorField::at_curve(const Path& path, const VehicleState& s, const FieldParams& p,
                                               double k) {
   const Curve curve = curve_of(path);
@@ -163,8 +163,8 @@ inline VectorField::Aim VectorField::at_curve(const Path& path, const VehicleSta
   return aim;
 }
 
-/// Bank that is fed forward. That of the next piece is commanded early by the time it takes to roll into it.
-/// Far from the path there is no such point.
+/// Curvature for the bank feed-forward. That of the next piece is commanded early by the time to roll. Far
+/// from the path it is not used.
 inline double VectorField::curvature_ahead(const Path& path, const VehicleState& s, const FieldParams& p,
                                            const Aim& aim) {
   const bool on_path = std::abs(aim.cross) < 0.5 * std::max(path.radius_m, 20.0) &&
@@ -184,7 +184,8 @@ inline Status VectorField::step(const Tick& tick, const Inputs& in, const Params
   waits_ = false;
   const double Vg = state.ground_speed_mps, chi = state.course_rad;
   const double k =
-      p.field.reference_speed / std::max(Vg, 0.3 * p.field.reference_speed);  // one time constant always
+      // the same time constant at any speed
+      p.field.reference_speed / std::max(Vg, 0.3 * p.field.reference_speed);
   const Aim aim = path.is_curve                 ? at_curve(path, state, p.field, k)
                   : path.kind == PathKind::line ? at_line(path, state, p.field, k)
                                                 : at_orbit(path, state, p.field, k);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which fillets of the leg are flown wider than planned, because the wind makes them too tight.
+// Fillets of the leg that are flown wider than planned, because the wind makes them too tight.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -14,32 +14,32 @@
 
 namespace fulmar::path {
 
-/// The corner where the leg begins, and the one where it ends.
+/// The corners at begin and end of the leg.
 class WideCorners {
  public:
   operator std::span<const WideCorner>() const { return corners_; }
 
-  /// A corner that a changed plan has no room for is flown as planned.
+  /// A corner without room in a changed plan is flown as planned.
   void fit(const Route& route, const Plan& plan) {
     for (WideCorner& corner : corners_) {
       const std::uint32_t i = find_id(plan, corner.id);
       if (i == plan.waypoints.count || route.widest_fillet_m(i) < corner.radius_m) corner = {};
     }
   }
-  /// A new leg begins: the corners of the lap before are forgotten.
+  /// Begins a leg: the corners of the lap before are dropped.
   void begin_leg(const Route& route, std::uint32_t item) {
     for (WideCorner& corner : corners_)
       if (corner.id != route.id(item) && corner.id != route.id(route.before(item))) corner = {};
   }
-  /// Does the fillet at the end of the leg become wider now? Decided once, a second before the wider one
-  /// begins.
+  /// True when the fillet at the end of the leg becomes wider now. Decided once, a second before the wider
+  /// one begins.
   bool widen(const Route& route, const FlownLeg& leg, std::uint32_t item, const VehicleState& state,
              double bank_rad) {
     const std::uint32_t id = route.id(item);
     const RoutePiece* const arc = leg.last_piece_next();
     if (!arc || bank_rad <= 0 || id == 0 || corners_[1].id == id || !state.wind_valid) return false;
     if (leg.piece().kind != PathKind::line || arc->kind != PathKind::orbit) return false;
-    const double Va = state.airspeed_mps, half_turn = arc->length_m / arc->radius_m;  // the arc is half of it
+    const double Va = state.airspeed_mps, half_turn = arc->length_m / arc->radius_m;  // half of the arc
     const double to_corner_m = leg.piece().length_m - leg.along_m() + arc->radius_m * std::tan(half_turn);
     const auto begins = [&](double radius_m) {
       return radius_m > arc->radius_m &&

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One component in flight: copies samples into the memory that Python sees, calls, copies results out.
+// One component in flight: copies samples into the memory of its Python views, calls, and copies results out.
 #pragma once
 #include <pybind11/pybind11.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one Python interpreter of this process: started when the first script is opened, never stopped.
+// The Python interpreter of this process: started when the first script is opened, never stopped.
 #pragma once
 #include <pybind11/pybind11.h>
 

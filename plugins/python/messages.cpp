@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Field tables of fulmar/msg/*.hpp as Python sees them. The list of headers and structs is made by the build.
+// Field tables of fulmar/msg/*.hpp for Python. The build makes the list of headers and structs.
 #include "messages.hpp"
 
 #include <map>

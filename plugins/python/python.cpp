@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The plugin that hosts components written in Python. It has none of its own: open_script makes those of a
-// file.
+// The plugin that hosts components in Python. It has no components itself: open_script makes those of a file.
 #include <pybind11/pybind11.h>
 
 #include <array>

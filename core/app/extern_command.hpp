@@ -8,7 +8,7 @@ namespace fulmar::core {
 
 /// Subcommand of Fulmar that another program executes: `fulmar echo` runs `fulmar-live echo`.
 struct OwnCommand {
-  const char *word, *program, *says;
+  const char *word, *program, *help;
 };
 /// In the order of the help.
 const std::vector<OwnCommand>& own_commands();

@@ -36,8 +36,8 @@ struct Commands {
     add_run(words);
     for (const OwnCommand& command : own_commands()) {
       // entry in the help alone: another program executes it
-      CLI::App* named = app.add_subcommand(command.word, command.says)->prefix_command();
-      if (*command.says == '\0') named->group("");
+      CLI::App* named = app.add_subcommand(command.word, command.help)->prefix_command();
+      if (*command.help == '\0') named->group("");
     }
   }
 

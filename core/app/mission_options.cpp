@@ -28,8 +28,8 @@ std::vector<std::pair<std::string, std::string>> pairs(const std::vector<std::st
 }
 
 void add_pairs(CLI::App* command, const char* option, std::vector<std::string>& words, const char* type,
-               const char* says) {
-  command->add_option(option, words, says)->type_name(type)->allow_extra_args(false);
+               const char* help) {
+  command->add_option(option, words, help)->type_name(type)->allow_extra_args(false);
 }
 
 CLI::Validator a_file(const std::string& otherwise) {

@@ -15,7 +15,7 @@ std::vector<std::pair<std::string, std::string>> pairs(const std::vector<std::st
 
 /// Option that may be given several times, with one value each time.
 void add_pairs(CLI::App* command, const char* option, std::vector<std::string>& words, const char* type,
-               const char* says);
+               const char* help);
 
 /// Validator of an option that names a file. An empty value, as of a shell variable that is not set, is
 /// rejected and does not mean the default.

@@ -150,7 +150,7 @@ void Session::report_log(const fs::path& log) const {
   if (!options_.json) say_aloud("log: " + log.string());
 }
 
-void Session::report_onlookers() const {
+void Session::report_clients() const {
   if (graph_.dds.on && unpaced()) warn(app_messages::dds_without_pace());
   if (!options_.live.empty() && graph_.live.on && unpaced()) warn(app_messages::live_without_pace());
   if (last_->live_port() == 0 || options_.json) return;
@@ -197,7 +197,7 @@ FlightResult Session::fly_with(const FlightOptions& o) {
   last_ = std::make_unique<Flight>(graph_, o);
   forget_before();
   report_log(o.log_file);
-  report_onlookers();
+  report_clients();
   return last_->run();
 }
 

@@ -51,7 +51,7 @@ class Session {
   bool unpaced() const { return graph_.io == Io::sim && options_.speed == 0; }
   void take_priority() const;
   void report_log(const std::filesystem::path& log) const;
-  void report_onlookers() const;
+  void report_clients() const;
   FlightOptions flight_options() const;
   void add_output(FlightOptions& options, Progress& progress) const;
   FlightResult fly_with(const FlightOptions& options);

@@ -83,9 +83,9 @@ void guard_wires(Draft& draft) {
       // A role's filler has a fallback, or failsafe; the loop observes other components that command the
       // vehicle.
       const bool obeyed = fed && reader.info().vehicle && wire.from.kind == Source::Kind::component;
-      const bool said = wire.max_age_ns != Wire::unsaid;
-      if (!said) wire.max_age_ns = watched || obeyed ? usual_age_ns(graph, reader, wire) : 0;
-      wire.by_steps = !said;
+      const bool is_set = wire.max_age_ns != Wire::unsaid;
+      if (!is_set) wire.max_age_ns = watched || obeyed ? usual_age_ns(graph, reader, wire) : 0;
+      wire.by_steps = !is_set;
       wire.guarded = watched && wire.max_age_ns > 0;
       const bool blind = watched ? !wire.guarded : obeyed && wire.max_age_ns == 0;
       if (blind && !from_vehicle(graph, wire)) graph.source.warnings.push_back(warning(reader, input, wire));

@@ -234,10 +234,10 @@ void complete_groups(Draft& draft, const PhaseText& phase, std::vector<Assignmen
 
 void assign_roles(Draft& draft) {
   const std::vector<int> command = chosen_by_command(draft);
-  const std::vector<int> nobody(draft.roles.size(), -1);
+  const std::vector<int> unfilled(draft.roles.size(), -1);
   for (const PhaseText& phase : phases_of(draft.text)) {
     std::vector<Assignment> roles(draft.roles.size());
-    const std::vector<int> usual = Seating(draft, phase, nobody).seats(),
+    const std::vector<int> usual = Seating(draft, phase, unfilled).seats(),
                            seated = Seating(draft, phase, command).seats();
     for (std::size_t r = 0; r < roles.size(); ++r) roles[r].component = seated[r];
     for (const AssignmentText& text : phase.roles) {

@@ -306,15 +306,15 @@ std::vector<std::string> missing_in_record(const Type& type, const Node& map) {
   });
   for (const Field& field : type.fields) {
     if (instead != map.entries.end() ? !field.in_record.instead : !field.in_record.required) continue;
-    const auto said = std::find_if(map.entries.begin(), map.entries.end(), [&](const Node::Entry& entry) {
+    const auto given = std::find_if(map.entries.begin(), map.entries.end(), [&](const Node::Entry& entry) {
       return field_of_key(type, entry.key) == &field;
     });
-    const bool there = said != map.entries.end();
-    if (there && !said->value.is(Node::Kind::map)) continue;  // its fault is reported already
+    const bool there = given != map.entries.end();
+    if (there && !given->value.is(Node::Kind::map)) continue;  // its fault is reported already
     const std::string name = without_suffix(field.name);
-    const std::vector<std::string> inside = field.type
-                                                ? missing_in_record(*field.type, there ? said->value : Node{})
-                                                : std::vector<std::string>();
+    const std::vector<std::string> inside =
+        field.type ? missing_in_record(*field.type, there ? given->value : Node{})
+                   : std::vector<std::string>();
     for (const std::string& part : inside) missing.push_back(name + "." + part);
     if (!there && inside.empty()) missing.push_back(name);
   }

@@ -68,13 +68,15 @@ std::string shipped_name(const fs::path& file) {
 }
 
 std::string file_hint(const fs::path& path, const std::string& name) {
-  const fs::path said(name), shipped = shipped_folder();
+  const fs::path wanted(name), shipped = shipped_folder();
   if (is_shipped_name(name) && shipped.empty()) return graph_messages::program_not_installed().line();
-  const std::string stem = said.stem().string();
+  const std::string stem = wanted.stem().string();
   if (!is_shipped_name(name)) {
     const std::vector<fs::path> beside =
         yaml_files<fs::directory_iterator>(path.has_parent_path() ? path.parent_path() : fs::path("."));
-    const auto called = [&](const fs::path& file) { return (said.parent_path() / file.filename()).string(); };
+    const auto called = [&](const fs::path& file) {
+      return (wanted.parent_path() / file.filename()).string();
+    };
     if (const std::string hint = near_files(stem, beside, called); !hint.empty()) return hint;
   }
   return near_files(stem, yaml_files<fs::recursive_directory_iterator>(shipped), [&](const fs::path& file) {

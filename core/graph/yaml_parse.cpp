@@ -198,7 +198,7 @@ class Builder : public YAML::EventHandler {
 };
 
 /// Replaces grammar terms of yaml-cpp by the probable fault.
-std::string plain_words(const std::string& said) {
+std::string plain_words(const std::string& original) {
   static const std::vector<std::pair<std::string, std::string>> known = {
       {"end of map not found", "the indentation does not fit what stands above, or a ':' is missing"},
       {"end of sequence not found", "the indentation of a list does not fit what stands above"},
@@ -213,8 +213,8 @@ std::string plain_words(const std::string& said) {
       {"bad file", "nested too deep"},
   };
   for (const auto& [key, words] : known)
-    if (said == key) return words;
-  return said;
+    if (original == key) return words;
+  return original;
 }
 
 bool begins_with_tab(const std::string& text, int line) {

@@ -175,8 +175,8 @@ std::string probe(const fs::path& copy, const std::string& name, const ProbedScr
   if (!script.copy.empty()) words.insert(words.end(), {script.copy.string(), script.file.string()});
   const Outcome outcome = run_probe(words, limit_s);
   const std::string& report = outcome.report;
-  const auto said = [&](std::string_view word) { return report.find(word) != std::string::npos; };
-  const std::string stage = !said(report_loaded) ? "loaded" : !said(report_read) ? "read" : "unloaded";
+  const auto has = [&](std::string_view word) { return report.find(word) != std::string::npos; };
+  const std::string stage = !has(report_loaded) ? "loaded" : !has(report_read) ? "read" : "unloaded";
   if (!outcome.in_time) {
     const std::string doing = stage == "loaded" ? "loading" : stage == "read" ? "reading" : "unloading";
     return loader_messages::probe_timed_out(name, doing, outcome.limit).line();
@@ -187,7 +187,7 @@ std::string probe(const fs::path& copy, const std::string& name, const ProbedScr
     const std::size_t begin = at + report_fault.size();
     return report.substr(begin, report.find('\n', begin) - begin);
   }
-  if (said(report_good) && outcome.exit_code == 0) return "";
+  if (has(report_good) && outcome.exit_code == 0) return "";
   return loader_messages::plugin_ended_process(name, stage, outcome.exit_code, last_line(outcome.words))
       .line();
 }

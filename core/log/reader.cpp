@@ -36,8 +36,8 @@ Data open_chunk(const std::string& compression, Data stored, std::uint64_t size,
   if (compression != "zstd") throw Error(log_messages::compression_unknown(compression.substr(0, 32)));
   require(size <= largest_chunk, log_messages::chunk_too_large);
   // Check the size before the allocation.
-  const unsigned long long says = ZSTD_getFrameContentSize(stored.data(), stored.size());
-  require(says == ZSTD_CONTENTSIZE_UNKNOWN || says == size, log_messages::chunk_not_decompressible);
+  const unsigned long long stated = ZSTD_getFrameContentSize(stored.data(), stored.size());
+  require(stated == ZSTD_CONTENTSIZE_UNKNOWN || stated == size, log_messages::chunk_not_decompressible);
   room.resize(size);
   const std::size_t n = ZSTD_decompress(room.data(), size, stored.data(), stored.size());
   require(!ZSTD_isError(n) && n == size, log_messages::chunk_not_decompressible);

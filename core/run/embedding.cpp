@@ -16,8 +16,7 @@ Flight::Flight(const Graph& graph, const FlightOptions& options)
 
 Flight::~Flight() {
   last_frame.store(nullptr, std::memory_order_release);
-  if (impl_->onlookers.control)
-    impl_->onlookers.control->end();  // answers reach their clients while these exist
+  if (impl_->clients.control) impl_->clients.control->end();  // answers reach their clients while these exist
 }
 
 FlightResult Flight::run() {
@@ -32,13 +31,13 @@ const std::optional<Restart>& Flight::restart() const { return impl_->state.rest
 
 // ---- to look at
 
-Control* Flight::control() const { return impl_->onlookers.control.get(); }
+Control* Flight::control() const { return impl_->clients.control.get(); }
 std::uint16_t Flight::live_port() const {
-  return impl_->onlookers.live ? impl_->onlookers.live->port() : std::uint16_t{0};
+  return impl_->clients.live ? impl_->clients.live->port() : std::uint16_t{0};
 }
 std::int64_t Flight::now_ns() const { return impl_->state.now_ns; }
 const std::string& Flight::phase() const { return nth(impl_->state.graph.phases, impl_->roles.phase()).name; }
-bool Flight::paused() const { return impl_->onlookers.control && impl_->onlookers.control->stands(); }
+bool Flight::paused() const { return impl_->clients.control && impl_->clients.control->stands(); }
 const std::byte* Flight::sample(const Source& source) const {
   const Slot* const slot = impl_->wiring.slot_of(source);
   return slot && slot->sequence > 0 ? impl_->wiring.message_of(source) : nullptr;

@@ -25,7 +25,7 @@ class FlightControl;
 class LiveView;
 
 /// Clients of a flight. A later member uses the earlier ones and is destroyed before them.
-struct Onlookers {
+struct Clients {
   std::unique_ptr<FlightControl> control;
   std::unique_ptr<LiveView> live;
   std::unique_ptr<DdsBridge> dds;
@@ -68,7 +68,7 @@ struct Flight::Impl {
   // swap.cpp
   void swap(int component, const std::string& file);
   void replace(int component, const std::string& file);
-  void rehearse_newcomer(const Unit& old, const Component& newcomer);
+  void rehearse_successor(const Unit& old, const Component& successor);
   void install(int component, Graph&& next, const std::string& words);
   void put_in_place(int component, std::unique_ptr<Unit> fresh, const char* why);
   void restart(int component);
@@ -87,7 +87,7 @@ struct Flight::Impl {
   Stepper stepper;
   Roles roles;
   std::shared_ptr<const CommandTable> commands;  // possible commands of the graph
-  Onlookers onlookers;
+  Clients clients;
   std::int64_t heard_ns = never_ns;    // time of the vehicle's first sample, while the decision to resume is
                                        // open
   bool catching_up = false;            // behind the wall clock, and this was reported

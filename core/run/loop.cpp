@@ -68,11 +68,11 @@ bool Flight::Impl::tick() {
 /// Reports the flight's state to clients; that of its components at a lower rate.
 void Flight::Impl::report_control() noexcept {
   constexpr std::uint64_t every = 16;
-  if (!onlookers.control) return;
-  onlookers.control->note(roles.phase(), state.now_ns, protection.armed());
-  onlookers.control->ticked();
+  if (!clients.control) return;
+  clients.control->note(roles.phase(), state.now_ns, protection.armed());
+  clients.control->ticked();
   if (state.index % every != 0) return;
-  for (std::size_t i = 0; i < wiring.units.size(); ++i) onlookers.control->note_unit(i, *wiring.units[i]);
+  for (std::size_t i = 0; i < wiring.units.size(); ++i) clients.control->note_unit(i, *wiring.units[i]);
 }
 
 /// After a standstill, as of a stopped program or a suspended machine, the flight catches up. It is reported,
@@ -96,9 +96,9 @@ bool Flight::Impl::step() {
   if (end.over()) return false;
   const bool first = state.index == 0;
   const std::uint64_t entering = thread_allocations();
-  const bool counted = !onlookers.control || first || onlookers.control->apply();
+  const bool counted = !clients.control || first || clients.control->apply();
   const std::uint64_t entered = counted ? thread_allocations() - entering : 0;
-  if (onlookers.control && onlookers.control->stands() && !stand_still()) return false;
+  if (clients.control && clients.control->stands() && !stand_still()) return false;
   if (end.over()) return false;  // for another flight
   if (first && state.on_hardware()) stay_on_one_cpu();
   if (first) stopwatch.begin();
@@ -109,7 +109,7 @@ bool Flight::Impl::step() {
   recorder.check_log();
   if (!goes_on) return false;
   if (state.index > 1) state.result.loop_allocations += thread_allocations() - before + entered;
-  const bool paused = onlookers.control && onlookers.control->paused();
+  const bool paused = clients.control && clients.control->paused();
   if (state.options.speed > 0 && !paused && !state.on_hardware()) note_behind(stopwatch.pace());
   if (state.options.progress && stopwatch.time_to_show()) state.options.progress(owner);
   return true;
@@ -143,9 +143,9 @@ FlightResult Flight::Impl::finish() {
   result.ticks = state.index;
   if (!result.phases.empty()) result.phases.back().to_ns = state.now_ns;
   for (const auto& unit : wiring.units) result.components.push_back(unit->stats);
-  if (onlookers.control) onlookers.control->end();
-  if (onlookers.live) result.live = onlookers.live->stats();
-  if (onlookers.dds) result.dds = onlookers.dds->stats();
+  if (clients.control) clients.control->end();
+  if (clients.live) result.live = clients.live->stats();
+  if (clients.dds) result.dds = clients.dds->stats();
   stepper.report_overdue();
   roles.conclude();
   if (!protection.has_flown()) result.idle = roles.idle_role();

@@ -17,9 +17,9 @@ bool Flight::Impl::stand_still() {
   constexpr auto interval = std::chrono::milliseconds(2);
   const std::int64_t since_ns = monotonic_ns();
   const std::atomic<int>* const interrupt = state.options.interrupt;
-  while (onlookers.control->stands() && !end.over()) {
+  while (clients.control->stands() && !end.over()) {
     std::this_thread::sleep_for(interval);
-    onlookers.control->apply();
+    clients.control->apply();
     stopwatch.skip();  // not charged to a unit
     if (interrupt && interrupt->load(std::memory_order_relaxed) != 0) end.end_by(Ending::Cue::signal);
     if (state.options.progress && stopwatch.time_to_show()) state.options.progress(owner);

@@ -95,13 +95,13 @@ void Flight::Impl::open_tap() {
 void Flight::Impl::open_to_others() {
   const Graph& graph = state.graph;
   const LiveLibrary* const live = graph.live.on ? &live_library(graph.live) : nullptr;
-  onlookers.control = std::make_unique<FlightControl>(*this);
+  clients.control = std::make_unique<FlightControl>(*this);
   if (graph.dds.on)
-    onlookers.dds = host_library<DdsLibrary>(graph.dds.where)
-                        .open({*recorder.tap(), *onlookers.control, say_aloud}, graph.dds);
+    clients.dds = host_library<DdsLibrary>(graph.dds.where)
+                      .open({*recorder.tap(), *clients.control, say_aloud}, graph.dds);
   if (live == nullptr) return;
   try {
-    onlookers.live = live->open(*recorder.tap(), *onlookers.control, graph.live, page_folder());
+    clients.live = live->open(*recorder.tap(), *clients.control, graph.live, page_folder());
   } catch (const Error& fault) {  // a port that another flight on this computer uses must not prevent the
                                   // flight
     if (state.options.say) state.options.say(run_messages::live_view_missing(fault.what()), true);

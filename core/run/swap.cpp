@@ -60,24 +60,24 @@ void Flight::Impl::replace(int at, const std::string& file) {
   Graph next = load_mission(graph.source.file, overrides);
   if (const std::string difference = structural_difference(graph, next); !difference.empty())
     throw Error(run_messages::mission_changed(graph.source.file, difference));
-  Component& newcomer = nth(next.components, at);
-  check_ports(*old.component, newcomer);
-  const std::string words = parameter_words(*old.info, old.base, newcomer.info(), newcomer.params);
-  carry_parameters(*old.info, old.base, newcomer.info(), newcomer.params);
-  if (newcomer.run != RunMode::driver) rehearse_newcomer(old, newcomer);
+  Component& successor = nth(next.components, at);
+  check_ports(*old.component, successor);
+  const std::string words = parameter_words(*old.info, old.base, successor.info(), successor.params);
+  carry_parameters(*old.info, old.base, successor.info(), successor.params);
+  if (successor.run != RunMode::driver) rehearse_successor(old, successor);
   install(at, std::move(next), words);
 }
 
 /// On the last inputs of its predecessor or, before the first step, on the present ones.
-void Flight::Impl::rehearse_newcomer(const Unit& old, const Component& newcomer) {
+void Flight::Impl::rehearse_successor(const Unit& old, const Component& successor) {
   std::unique_ptr<Tape> now;
   const Tape* tape = old.tape.get();
   if (!tape || tape->size() == 0) {
     now = wiring.unit(wiring.index_of(old)).present_inputs(state.now_ns, state.index);
     tape = now.get();
   }
-  const std::uint64_t seed = component_seed(state.graph.seed, newcomer.name);
-  rehearse(newcomer, state.graph.tick_ns, seed, same_inputs(*old.info, newcomer.info()) ? tape : nullptr);
+  const std::uint64_t seed = component_seed(state.graph.seed, successor.name);
+  rehearse(successor, state.graph.tick_ns, seed, same_inputs(*old.info, successor.info()) ? tape : nullptr);
 }
 
 /// A configured unit replaces another; pending requests of the old one are rejected with `why`.

@@ -51,11 +51,11 @@ std::string reason_of(const FlightResult& result) {
 
 std::string verdict_line(const Graph& graph, const Flight& flight, const std::string& result_word) {
   if (!graph.judge.verdict && !graph.judge.left_out.empty()) return result_word + ": " + without(graph);
-  const std::byte* const said = graph.judge.verdict ? flight.sample(graph.judge.verdict->from) : nullptr;
-  if (!said) return result_word;
+  const std::byte* const message = graph.judge.verdict ? flight.sample(graph.judge.verdict->from) : nullptr;
+  if (!message) return result_word;
   const VerdictPort& port = *graph.judge.verdict;
-  const std::string word = text_at(said + port.word, port.word_size),
-                    text = text_at(said + port.text, port.text_size);
+  const std::string word = text_at(message + port.word, port.word_size),
+                    text = text_at(message + port.text, port.text_size);
   const bool own = result_word == "failed" && !word.empty();
   return (own ? word : result_word) + (text.empty() ? "" : ": " + text);
 }

@@ -115,7 +115,7 @@ void Hub::remove(ClientId id) {
 /// Requests the rate of a channel without subscribers.
 void Hub::want_unseen(std::size_t index) {
   const Channel& channel = channels_[index];
-  if (!channel.listeners.empty()) return;
+  if (!channel.subscribers.empty()) return;
   const bool clock = tap_.channels()[index].topic == "/fulmar/ticks";  // every client needs the clock
   if (clock)
     feed_.cursor->want(index, clients_.empty() ? -1 : 0);
@@ -126,7 +126,7 @@ void Hub::want_unseen(std::size_t index) {
 void Hub::stop_listening(Client& client, std::uint32_t subscription) {
   const auto at = client.subscriptions.find(subscription);
   Channel& channel = channels_[at->second];
-  std::erase_if(channel.listeners, [&](const auto& listener) { return listener.first == &client; });
+  std::erase_if(channel.subscribers, [&](const auto& listener) { return listener.first == &client; });
   want_unseen(at->second);
   client.subscriptions.erase(at);
 }
@@ -251,8 +251,8 @@ bool Hub::drain() {
     time_.newest_ns = sample->now_ns;
     time_.known = true;
     Channel& channel = channels_[sample->channel];
-    if (!channel.listeners.empty()) encode(channel, sample->data(), message);
-    for (const auto& [client, subscription] : channel.listeners)
+    if (!channel.subscribers.empty()) encode(channel, sample->data(), message);
+    for (const auto& [client, subscription] : channel.subscribers)
       give(*client, message, subscription, sample->now_ns, owed(channel));
     keep(*sample);
   }

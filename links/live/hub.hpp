@@ -91,7 +91,7 @@ class Hub {
   };
   struct Channel {
     CdrEncoder encoder;
-    std::vector<std::pair<Client*, std::uint32_t>> listeners;  // clients and their subscriptions
+    std::vector<std::pair<Client*, std::uint32_t>> subscribers;  // clients and their subscriptions
     bool seldom = false;       // rarely published: every sample must be delivered, and the last one stays
                                // valid
     std::size_t max_past = 1;  // number of last samples that are kept for later subscribers

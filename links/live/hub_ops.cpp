@@ -63,7 +63,7 @@ void Hub::subscribe(Client& client, const json& message) {
     }
     const std::size_t index = channel_id - 1;
     Channel& channel = channels_[index];
-    const bool has = std::any_of(channel.listeners.begin(), channel.listeners.end(),
+    const bool has = std::any_of(channel.subscribers.begin(), channel.subscribers.end(),
                                  [&](const auto& l) { return l.first == &client; });
     if (has || client.subscriptions.contains(id)) {
       refuse(client, has ? live_messages::channel_already_subscribed(channel_id)
@@ -73,7 +73,7 @@ void Hub::subscribe(Client& client, const json& message) {
     feed_.cursor->want(index, 0);
     catch_up();  // the ring may hold one sample of many; the client's stream must have no gap
     client.subscriptions[id] = index;
-    channel.listeners.emplace_back(&client, id);
+    channel.subscribers.emplace_back(&client, id);
     give_past(client, index, id, paused);
   }
 }

@@ -42,8 +42,8 @@ SaveAnswer save(const FlightView& view, const std::string& component, const std:
   try {
     if (!view.no_save.empty()) throw Error(live_messages::save_not_allowed(view.no_save));
     if (view.file.empty()) throw Error(live_messages::mission_file_missing());
-    const json said = json::parse(answer_of_program(dumped(save_request(view, component, mark)), limit));
-    answer = {said.at("accepted"), said.at("reason"), said.at("lines"), said.at("mark")};
+    const json reply = json::parse(answer_of_program(dumped(save_request(view, component, mark)), limit));
+    answer = {reply.at("accepted"), reply.at("reason"), reply.at("lines"), reply.at("mark")};
   } catch (const json::exception&) {
     answer.reason = live_messages::save_answer_invalid();
   } catch (const std::exception& fault) {
@@ -59,9 +59,9 @@ void Saving::begin(FlightView view, std::string component, std::string mark,
   // flight.
   quiet_thread("fulmar-save", [busy = busy_, view = std::move(view), component = std::move(component),
                                mark = std::move(mark), answer = std::move(answer)] {
-    const SaveAnswer said = save(view, component, mark);
+    const SaveAnswer reply = save(view, component, mark);
     busy->store(false);
-    answer(said);
+    answer(reply);
   }).detach();
 }
 

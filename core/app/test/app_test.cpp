@@ -235,14 +235,14 @@ struct Background {
     pid.erase(pid.find_last_not_of('\n') + 1);
   }
   ~Background() { shell("kill -INT " + pid + "; sleep 0.2; kill -9 " + pid); }
-  std::string said() const {
+  std::string printed() const {
     std::ifstream file(out);
     return {std::istreambuf_iterator<char>(file), {}};
   }
   /// Waits for `words` in the output; returns false after a generous time.
-  bool says(const std::string& words, std::size_t times = 1) const {
+  bool prints(const std::string& words, std::size_t times = 1) const {
     for (int i = 0; i < 1200; ++i) {
-      const std::string text = said();
+      const std::string text = printed();
       std::size_t found = 0;
       for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++found;
       if (found >= times) return true;
@@ -269,17 +269,17 @@ TEST_CASE(
               "  mine: {fills: outer, use: mine.so/Outer, rate: 100 Hz}\n" +
               "phases:\n  takeoff: {outer: {use: mine, set: {law: takeoff}}}\n  cruise: {outer: mine}\n");
   const Background watch("run " + file.string() + " --no-log --watch");
-  REQUIRE(watch.says("waiting for a change"));
+  REQUIRE(watch.prints("waiting for a change"));
   put(lib / "control_tecs.so", mine);
-  REQUIRE(watch.says("waiting for a change", 2));
-  CHECK(watch.said().find("rehearsed on 256 steps") != std::string::npos);
-  CHECK(watch.said().find("app.flights_compared") != std::string::npos);
-  CHECK(watch.said().find("flight_time_s") != std::string::npos);
+  REQUIRE(watch.prints("waiting for a change", 2));
+  CHECK(watch.printed().find("rehearsed on 256 steps") != std::string::npos);
+  CHECK(watch.printed().find("app.flights_compared") != std::string::npos);
+  CHECK(watch.printed().find("flight_time_s") != std::string::npos);
   put(lib / "score.so", mine);
-  REQUIRE(watch.says("types.name_unknown_in(the plugin mine.so, component, Outer,  [] Score)"));
-  REQUIRE(watch.says("app.former_mission_kept"));
+  REQUIRE(watch.prints("types.name_unknown_in(the plugin mine.so, component, Outer,  [] Score)"));
+  REQUIRE(watch.prints("app.former_mission_kept"));
   put(lib / "control_slc.so", mine);
-  CHECK(watch.says("waiting for a change", 3));
+  CHECK(watch.prints("waiting for a change", 3));
 }
 
 TEST_CASE("--watch --build builds when a source has changed, and reports a failure") {
@@ -296,11 +296,11 @@ TEST_CASE("--watch --build builds when a source has changed, and reports a failu
   const Background watch("run " + (place / "mission.yaml").string() +
                          " --no-log --watch --build \"grep -q 1 " + (place / "law.cpp").string() + " && mv " +
                          (place / "next.so").string() + " " + (place / "mine.so").string() + "\"");
-  REQUIRE(watch.says("waiting for a change"));
+  REQUIRE(watch.prints("waiting for a change"));
   std::ofstream(place / "law.cpp") << "nonsense\n";
-  REQUIRE(watch.says("campaign.build_failed"));
+  REQUIRE(watch.prints("campaign.build_failed"));
   std::ofstream(place / "law.cpp") << "1 \n";
-  REQUIRE(watch.says("app.flights_compared"));
+  REQUIRE(watch.prints("app.flights_compared"));
   CHECK(fulmar("run " + hourglass + " --build true").code == 2);
 }
 
@@ -331,9 +331,9 @@ TEST_CASE("an interrupt during a build ends the build and the program") {
   fs::copy_file(mission("done: \"nav.state.height_m > 20 m\"\n" + plan), place / "mission.yaml");
   const Background watch("run " + (place / "mission.yaml").string() +
                          " --no-log --watch --build \"sleep 4321\"");
-  REQUIRE(watch.says("waiting for a change"));
+  REQUIRE(watch.prints("waiting for a change"));
   std::ofstream(place / "law.cpp") << "2 \n";
-  REQUIRE(watch.says("building"));
+  REQUIRE(watch.prints("building"));
   shell("kill -INT " + watch.pid);
   bool gone = false;
   for (int i = 0; i < 100 && !gone; ++i, usleep(50'000)) gone = shell("kill -0 " + watch.pid).code != 0;
@@ -363,18 +363,18 @@ TEST_CASE(
     const Background flight("run " + hourglass + " --speed real --log " + (logs / "a.mcap").string());
     const fs::path part = logs / "a.mcap.part";
     for (int i = 0; i < 1200 && !fs::exists(part); ++i) usleep(50'000);
-    REQUIRE(flight.says(" m  airspeed"));  // the flight has begun
+    REQUIRE(flight.prints(" m  airspeed"));  // the flight has begun
     if (removed)
       fs::remove_all(logs);
     else
       fs::rename(logs, kept);
     const std::string what = (removed ? "log.log_removed(" : "log.log_moved(") + part.string();
-    REQUIRE(flight.says("run.log_failed(" + what));
+    REQUIRE(flight.prints("run.log_failed(" + what));
     shell("kill -INT " + flight.pid);
-    REQUIRE(flight.says((removed ? "app.log_lost(" : "app.log_incomplete(") + what));
-    const std::string said = flight.said();
-    CHECK((said.find(", " + (kept / "a.mcap.part").string() + ")\n") != std::string::npos) == !removed);
-    CHECK((said.find("app.log_lost(") != std::string::npos) == removed);
+    REQUIRE(flight.prints((removed ? "app.log_lost(" : "app.log_incomplete(") + what));
+    const std::string printed = flight.printed();
+    CHECK((printed.find(", " + (kept / "a.mcap.part").string() + ")\n") != std::string::npos) == !removed);
+    CHECK((printed.find("app.log_lost(") != std::string::npos) == removed);
   }
 }
 

@@ -64,7 +64,7 @@ struct Program {
     std::ifstream file(err);
     return {std::istreambuf_iterator<char>(file), {}};
   }
-  bool says(const std::string& words) const {
+  bool prints(const std::string& words) const {
     for (int i = 0; i < 200; ++i, pause_s(0.05))
       if (text().find(words) != std::string::npos) return true;
     return false;
@@ -86,16 +86,16 @@ struct Program {
 TEST_CASE("on hardware the place of the log is reported before arming") {
   {
     Program program("craft.arm_at=100");
-    REQUIRE(program.says("run.phase_entered(second)"));
-    CHECK(program.says("app.log_off"));
+    REQUIRE(program.prints("run.phase_entered(second)"));
+    CHECK(program.prints("app.log_off"));
     program.send(SIGINT);
     CHECK(program.code() == 130);
   }
   const std::string log = (folder / "written.mcap").string();
   fs::remove(log);
   Program program("craft.arm_at=100", "{file: " + log + "}");
-  REQUIRE(program.says("run.phase_entered(second)"));
-  CHECK(program.says("log: " + log + "\n"));
+  REQUIRE(program.prints("run.phase_entered(second)"));
+  CHECK(program.prints("log: " + log + "\n"));
   CHECK_FALSE(program.text().find("app.log_off") != std::string::npos);
   program.send(SIGINT);
   CHECK(program.code() == 130);
@@ -109,9 +109,9 @@ TEST_CASE(
     "the first signal is refused while armed, the second gives up control in order, and no alarm ends an "
     "armed flight") {
   Program program("craft.arm_at=0");
-  REQUIRE(program.says("run.phase_entered(second)"));
+  REQUIRE(program.prints("run.phase_entered(second)"));
   program.send(SIGTERM);
-  REQUIRE(program.says("run.signal_refused"));
+  REQUIRE(program.prints("run.signal_refused"));
   program.send(SIGINT);  // too early: timeout(1) sends two at once
   program.send(SIGHUP);
   program.send(SIGALRM);
@@ -126,12 +126,12 @@ TEST_CASE(
 
 TEST_CASE("a third signal ends an armed flight at once") {
   Program program("craft.arm_at=0");
-  REQUIRE(program.says("run.phase_entered(second)"));
+  REQUIRE(program.prints("run.phase_entered(second)"));
   program.send(SIGINT);
-  REQUIRE(program.says("run.signal_refused"));
+  REQUIRE(program.prints("run.signal_refused"));
   pause_s(0.6);
   program.send(SIGINT);
-  REQUIRE(program.says("run.control_given_up"));
+  REQUIRE(program.prints("run.control_given_up"));
   pause_s(0.6);
   program.send(SIGINT);
   CHECK(program.code() == 130);
@@ -140,7 +140,7 @@ TEST_CASE("a third signal ends an armed flight at once") {
 
 TEST_CASE("a signal ends the flight of a disarmed aircraft at once") {
   Program program("craft.arm_at=1000");
-  REQUIRE(program.says("run.phase_entered(second)"));
+  REQUIRE(program.prints("run.phase_entered(second)"));
   program.send(SIGTERM);
   CHECK(program.code() == 130);
   CHECK(program.text().find("run.signal_refused") == std::string::npos);
@@ -151,7 +151,7 @@ TEST_CASE(
     "it "
     "any more") {
   Program program("law_a.hang_at=0.5");
-  REQUIRE(program.says("run.phase_entered(second)"));
+  REQUIRE(program.prints("run.phase_entered(second)"));
   pause_s(0.8);
   program.send(SIGINT);
   pause_s(0.7);
@@ -167,14 +167,14 @@ TEST_CASE(
   const std::string record = "{file: " + (folder / "run.mcap").string() + "}";
   {
     Program first("craft.arm_at=0", record);
-    REQUIRE(first.says("run.phase_entered(second)"));
+    REQUIRE(first.prints("run.phase_entered(second)"));
     pause_s(2.5);  // the log is complete up to the last second
     first.send(SIGKILL);
     CHECK(first.code() == -2);
   }
   {
     Program again("craft.arm_at=0.5", record);
-    CHECK(again.says("run.resumed(phase second"));
+    CHECK(again.prints("run.resumed(phase second"));
     again.send(SIGKILL);
     CHECK(again.code() == -2);
     CHECK(again.text().find("run.phase_entered(first)") < again.text().find("run.resumed(phase second"));
@@ -183,7 +183,7 @@ TEST_CASE(
   CHECK(fs::exists(folder / "run-2.mcap.part"));
   fs::remove(folder / "run-2.mcap.part");
   Program ground("craft.arm_at=1000", record);
-  CHECK(ground.says("run.not_resumed_on_ground"));
+  CHECK(ground.prints("run.not_resumed_on_ground"));
   ground.send(SIGTERM);
   CHECK(ground.code() == 130);
   CHECK(fs::exists(folder / "run-2.mcap"));

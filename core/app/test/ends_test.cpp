@@ -30,7 +30,7 @@ class Program {
     for (const fs::path& old : {device(), log_file(), fs::path(log_file().string() + ".part")})
       fs::remove(old);
     mission("  sim: {fills: vehicle, use: lab/Cart, params: {device: " + device().string() + "}}\n" + tail);
-    const std::string program = std::string(FULMAR_BIN_DIR) + "/fulmar", said = said_.string();
+    const std::string program = std::string(FULMAR_BIN_DIR) + "/fulmar", printed = said_.string();
     words.insert(words.begin(), {program, "run", (folder().path / "lab.yaml").string(), "--log", log});
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
@@ -38,7 +38,7 @@ class Program {
     pid_ = fork();
     REQUIRE(pid_ >= 0);
     if (pid_ > 0) return;
-    const int to = open(said.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+    const int to = open(printed.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
     dup2(to, STDOUT_FILENO);
     dup2(to, STDERR_FILENO);
     if (chdir(folder().path.c_str()) != 0) _exit(126);
@@ -60,7 +60,7 @@ class Program {
     pid_ = -1;
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   }
-  std::string said() const { return text(said_); }
+  std::string printed() const { return text(said_); }
   pid_t pid() const { return pid_; }
 
   /// Waits until the log has begun.
@@ -160,9 +160,9 @@ TEST_CASE("a component that ends the host is reported, and the device gets the l
     CAPTURE(end.mode);
     Program program(law(end.fault, end.mode));
     CHECK(program.wait() == end.code);
-    const std::string said = program.said();
-    CHECK_MESSAGE(said.find(end.reported) != std::string::npos, said);
-    CHECK(said.find("app.log_until_end(" + log_file().string() + ".part)") != std::string::npos);
+    const std::string printed = program.printed();
+    CHECK_MESSAGE(printed.find(end.reported) != std::string::npos, printed);
+    CHECK(printed.find("app.log_until_end(" + log_file().string() + ".part)") != std::string::npos);
     CHECK(fs::exists(log_file().string() + ".part"));
     CHECK(last_frame() == failsafe);
   }
@@ -173,11 +173,11 @@ TEST_CASE("when several threads end the program, one reason is reported, complet
   for (int i = 0; i < 3; ++i) {
     Program program(law("threads_terminate", ""));
     CHECK(program.wait() == 128 + SIGABRT);
-    const std::string said = program.said(), crashed = "_crashed(";
-    const auto at = said.find(crashed);
+    const std::string printed = program.printed(), crashed = "_crashed(";
+    const auto at = printed.find(crashed);
     REQUIRE(at != std::string::npos);
-    CHECK(said.find(crashed, at + 1) == std::string::npos);
-    CHECK(said.find("app.log_until_end(" + log_file().string() + ".part)\n", at) != std::string::npos);
+    CHECK(printed.find(crashed, at + 1) == std::string::npos);
+    CHECK(printed.find("app.log_until_end(" + log_file().string() + ".part)\n", at) != std::string::npos);
     CHECK(last_frame() == failsafe);
   }
 }
@@ -188,11 +188,11 @@ TEST_CASE("a signal that a component raises is handled, beside the loop as in it
     CAPTURE(mode);
     Program usr1(law("raises_usr1", mode));
     CHECK(usr1.wait() == 128 + SIGUSR1);
-    CHECK_MESSAGE(usr1.said().find("app.ended_by_signal(SIGUSR1)") != std::string::npos, usr1.said());
+    CHECK_MESSAGE(usr1.printed().find("app.ended_by_signal(SIGUSR1)") != std::string::npos, usr1.printed());
     CHECK(last_frame() == failsafe);
     Program term(law("raises_term", mode));
     CHECK(term.wait() == 130);
-    CHECK_MESSAGE(term.said().find("interrupted") != std::string::npos, term.said());
+    CHECK_MESSAGE(term.printed().find("interrupted") != std::string::npos, term.printed());
     CHECK(fs::exists(log_file()));
   }
 }
@@ -202,8 +202,8 @@ TEST_CASE("the report of a log gives its present place: the complete name, not t
     Program program(law("crashes"), {}, "end.mcap");
     CHECK(program.wait() == 128 + SIGSEGV);
     CHECK_MESSAGE(
-        program.said().find("app.log_until_end(" + log_file().string() + ".part)") != std::string::npos,
-        program.said());
+        program.printed().find("app.log_until_end(" + log_file().string() + ".part)") != std::string::npos,
+        program.printed());
   }
   Program program(one_phase, {"--speed", "real"}, "end.mcap");
   const fs::path part = log_file().string() + ".part";
@@ -211,17 +211,17 @@ TEST_CASE("the report of a log gives its present place: the complete name, not t
   fs::rename(part, folder().path / "elsewhere");
   kill(program.pid(), SIGQUIT);
   CHECK(program.wait() == 128 + SIGQUIT);
-  const std::string said = program.said();
+  const std::string printed = program.printed();
   CHECK_MESSAGE(
-      said.find("app.ended_by_signal(SIGQUIT). app.log_not_found(" + part.string()) != std::string::npos,
-      said);
-  CHECK(said.find("app.log_until_end") == std::string::npos);
+      printed.find("app.ended_by_signal(SIGQUIT). app.log_not_found(" + part.string()) != std::string::npos,
+      printed);
+  CHECK(printed.find("app.log_until_end") == std::string::npos);
 }
 
 TEST_CASE("a fork of the host that exits is not the host") {
   Program program(law("forks"), {"--duration", "0.3"});
   CHECK(program.wait() == 0);
-  CHECK_MESSAGE(program.said().find("ended_program") == std::string::npos, program.said());
+  CHECK_MESSAGE(program.printed().find("ended_program") == std::string::npos, program.printed());
   CHECK(last_frame() == 0);
 }
 
@@ -230,9 +230,9 @@ TEST_CASE("a copy of the host that returns from a step ends, and the host flies 
     CAPTURE(mode);
     Program program(law("clones_on", mode), {"--duration", "0.3"});
     CHECK(program.wait() == 0);
-    const std::string said = program.said();
-    CHECK_MESSAGE(occurrences(said, "flown") == 1, said);
-    CHECK(occurrences(said, "run.host_forked(one)") == 1);
+    const std::string printed = program.printed();
+    CHECK_MESSAGE(occurrences(printed, "flown") == 1, printed);
+    CHECK(occurrences(printed, "run.host_forked(one)") == 1);
     CHECK(last_frame() == 0);
   }
 }
@@ -241,10 +241,10 @@ TEST_CASE("a copy of the host that a signal ends does not act as the host: no la
   if (!FULMAR_CRASH_TESTS) return;
   Program program(law("clones_end"), {"--duration", "0.15"});
   CHECK(program.wait() == 0);
-  const std::string said = program.said();
-  CHECK_MESSAGE(said.find("crashed") == std::string::npos, said);
-  CHECK(said.find("ended_by") == std::string::npos);
-  CHECK(said.find("guard") == std::string::npos);  // each copy ended by its signal
+  const std::string printed = program.printed();
+  CHECK_MESSAGE(printed.find("crashed") == std::string::npos, printed);
+  CHECK(printed.find("ended_by") == std::string::npos);
+  CHECK(printed.find("guard") == std::string::npos);  // each copy ended by its signal
   CHECK(last_frame() == 0);
 }
 
@@ -282,7 +282,7 @@ TEST_CASE("a crash of any thread of the host is reported, and its device gets th
     REQUIRE(program.logs());
     REQUIRE(syscall(SYS_tgkill, program.pid(), thread, SIGSEGV) == 0);
     CHECK(program.wait() == 128 + SIGSEGV);
-    CHECK(program.said().find("app.host_crashed(segmentation fault). app.log_until_end(") !=
+    CHECK(program.printed().find("app.host_crashed(segmentation fault). app.log_until_end(") !=
           std::string::npos);
     CHECK(last_frame() == failsafe);
   }
@@ -303,9 +303,9 @@ TEST_CASE(
     REQUIRE(program.logs());
     kill(program.pid(), end.signal);
     CHECK(program.wait() == 128 + end.signal);
-    CHECK_MESSAGE(program.said().find("app.ended_by_signal("s + end.name + "). app.log_until_end(") !=
+    CHECK_MESSAGE(program.printed().find("app.ended_by_signal("s + end.name + "). app.log_until_end(") !=
                       std::string::npos,
-                  program.said());
+                  program.printed());
     CHECK(last_frame() == failsafe);
   }
 }
@@ -313,26 +313,26 @@ TEST_CASE(
 TEST_CASE("a paced flight that stood still reports it, at once and in its result") {
   Program program(one_phase, {"--speed", "real", "--duration", "3"});
   // The first event comes before the clock runs; the line of progress comes after it.
-  for (int i = 0; i < 2000 && program.said().find("s  fly") == std::string::npos; ++i)
+  for (int i = 0; i < 2000 && program.printed().find("s  fly") == std::string::npos; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   kill(program.pid(), SIGSTOP);
   std::this_thread::sleep_for(std::chrono::milliseconds(1500));
   kill(program.pid(), SIGCONT);
   CHECK(program.wait() == 0);
-  const std::string said = program.said();
-  CHECK_MESSAGE(said.find("s  run.flight_behind(1.") != std::string::npos, said);
-  CHECK_MESSAGE(said.find("  up to 1.") != std::string::npos, said);
+  const std::string printed = program.printed();
+  CHECK_MESSAGE(printed.find("s  run.flight_behind(1.") != std::string::npos, printed);
+  CHECK_MESSAGE(printed.find("  up to 1.") != std::string::npos, printed);
 }
 
 TEST_CASE("a crash after the flight names the plugin and does not point to a missing log") {
   if (!FULMAR_CRASH_TESTS) return;
   Program program(law("parts"), {"--duration", "0.3"});
   CHECK(program.wait() == 128 + SIGSEGV);
-  const std::string said = program.said();
-  CHECK_MESSAGE(said.find("app.file_crashed(lab.so, unloaded, segmentation fault). app.flight_over\n") !=
+  const std::string printed = program.printed();
+  CHECK_MESSAGE(printed.find("app.file_crashed(lab.so, unloaded, segmentation fault). app.flight_over\n") !=
                     std::string::npos,
-                said);
-  CHECK(said.find(".part") == std::string::npos);
+                printed);
+  CHECK(printed.find(".part") == std::string::npos);
   CHECK(fs::exists(log_file()));
 }
 

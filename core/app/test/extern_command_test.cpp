@@ -146,9 +146,10 @@ TEST_CASE("the host's help lists every subcommand of the programs beside it, as 
     bool listed = false;
     while (fgets(line, sizeof line, pipe)) {
       std::istringstream in(line);
-      std::string word, says;
+      std::string word, description;
       const bool indented = std::string(line).rfind("  ", 0) == 0;
-      if (in >> word && listed && indented && std::getline(in >> std::ws, says)) words[word] = says;
+      if (in >> word && listed && indented && std::getline(in >> std::ws, description))
+        words[word] = description;
       listed = listed || word == "Subcommands:";
     }
     pclose(pipe);

@@ -91,9 +91,9 @@ Eigen::Vector3d place(const VehicleState& s) { return eigen(s.position_m); }
 /// One host's log.
 struct Flight {
   int code = -1;
-  std::string json, said;
+  std::string json, printed;
   States nav, truth;
-  std::map<std::string, States> heard;  // imports
+  std::map<std::string, States> received;  // imports
   double import(const std::string& port, const char* key) const { return number(json, port, key); }
 };
 
@@ -106,21 +106,21 @@ struct Link {
 };
 
 Link link(const Flight& own, const std::string& name, const Flight& other) {
-  std::map<std::pair<double, double>, double> said;  // place -> time
-  for (const auto& l : other.nav) said[{l.value.position_m.north, l.value.position_m.east}] = l.t;
+  std::map<std::pair<double, double>, double> sent_at;  // place -> time
+  for (const auto& l : other.nav) sent_at[{l.value.position_m.north, l.value.position_m.east}] = l.t;
   Link link;
   std::vector<double> shifts;
-  const States& heard = own.heard.at(name);
-  for (const auto& l : heard)
-    if (const auto when = said.find({l.value.position_m.north, l.value.position_m.east});
-        when != said.end()) {
+  const States& received = own.received.at(name);
+  for (const auto& l : received)
+    if (const auto when = sent_at.find({l.value.position_m.north, l.value.position_m.east});
+        when != sent_at.end()) {
       link.words.push_back({l.t, when->second});
       shifts.push_back(l.t - when->second);
     }
   if (shifts.empty()) return {};
   const auto middle = shifts.begin() + static_cast<std::ptrdiff_t>(shifts.size() / 2);
   std::nth_element(shifts.begin(), middle, shifts.end());
-  link.share = static_cast<double>(shifts.size()) / static_cast<double>(heard.size());
+  link.share = static_cast<double>(shifts.size()) / static_cast<double>(received.size());
   link.shift_s = *middle;
   return link;
 }
@@ -151,13 +151,13 @@ bool both_fly(const VehicleState& own, const VehicleState& other) {
 /// its own time differed from the other's. Computed from the logs alone.
 std::vector<double> out_of_touch(const Flight& own, const std::string& name, const Flight& other) {
   constexpr double old_s = 0.5;  // flight time: ten samples
-  const Link heard = link(own, name, other);
+  const Link received = link(own, name, other);
   std::vector<double> times;
   std::size_t n = 0;
   for (const auto& l : own.truth) {
-    while (n < heard.words.size() && heard.words[n].first <= l.t) ++n;
-    if (n == 0 || !both_fly(l.value, at(other.truth, l.t - heard.shift_s))) continue;
-    if (std::abs(l.t - heard.shift_s - heard.words[n - 1].second) > old_s) times.push_back(l.t);
+    while (n < received.words.size() && received.words[n].first <= l.t) ++n;
+    if (n == 0 || !both_fly(l.value, at(other.truth, l.t - received.shift_s))) continue;
+    if (std::abs(l.t - received.shift_s - received.words[n - 1].second) > old_s) times.push_back(l.t);
   }
   return times;
 }
@@ -240,13 +240,13 @@ Flight read(const Hosts& hosts, const std::string& name, Process& process,
   Flight f;
   f.code = process.wait(1);
   f.json = process.out();
-  f.said = process.err();
+  f.printed = process.err();
   if (f.code != 0) return f;
   const core::WholeLog file = core::read_mcap(hosts.log(name));
   f.nav = logged<VehicleState>(file, "/nav/state");
   f.truth = logged<VehicleState>(file, "/vehicle/truth");
   for (const std::string& import : imports)
-    f.heard[import] = logged<VehicleState>(file, "/" + import + "/heard");
+    f.received[import] = logged<VehicleState>(file, "/" + import + "/heard");
   return f;
 }
 
@@ -268,7 +268,7 @@ void fly_all(Fleet& f) {
   f.far = read(f.hosts, "far", *far, {});
   f.laptop.code = laptop->wait(1);
   f.laptop.json = laptop->out();
-  f.laptop.said = laptop->err();
+  f.laptop.printed = laptop->err();
   if (f.far.code == 0)
     f.plans = logged<fulmar::Plan>(core::read_mcap(f.hosts.log("far")), "/manage/plan").size();
 }
@@ -290,7 +290,7 @@ const Fleet& fleet() {
 TEST_CASE("three hosts on one computer fly in formation by their exports over DDS") {
   const Fleet& f = fleet();
   for (const Flight* flight : {&f.leader, &f.right, &f.left})
-    REQUIRE_MESSAGE(flight->code == 0, flight->said);
+    REQUIRE_MESSAGE(flight->code == 0, flight->printed);
   for (const auto& [flight, offset] : {std::pair{&f.right, Eigen::Vector3d(-20, 20, -5)},
                                        std::pair{&f.left, Eigen::Vector3d(-20, -20, 5)}}) {
     const std::string& json = flight->json;
@@ -322,10 +322,10 @@ TEST_CASE("no two aircraft of the formation come nearer than their separation, i
   }
   for (auto& [flight, times] : lost) std::sort(times.begin(), times.end());
   for (const auto& [own, name, other] : pairs) {
-    const Link heard = link(*own, name, *other);
-    const Separation s = separation(*own, *other, heard.shift_s, lost[own], lost[other]);
+    const Link received = link(*own, name, *other);
+    const Separation s = separation(*own, *other, received.shift_s, lost[own], lost[other]);
     MESSAGE("least true distance " << s.least_m << " m, in " << 100 * s.share << " % of the time in the air");
-    CHECK(heard.share > 0.99);
+    CHECK(received.share > 0.99);
     CHECK(s.least_m > 15);
     CHECK(s.share > 0.5);
   }
@@ -337,19 +337,19 @@ TEST_CASE(
   for (const Flight* flight : {&f.right, &f.left}) {
     REQUIRE(flight->code == 0);
     for (const char* name : {"leader", "other"}) {
-      const States& heard = flight->heard.at(name);
+      const States& received = flight->received.at(name);
       const std::string port = std::string(name) + ".heard";
-      REQUIRE(heard.size() > 100);
-      const double hz = static_cast<double>(heard.size() - 1) / (heard.back().t - heard.front().t);
+      REQUIRE(received.size() > 100);
+      const double hz = static_cast<double>(received.size() - 1) / (received.back().t - received.front().t);
       const double mean = flight->import(port, "latency_mean_s"),
                    most = flight->import(port, "latency_max_s");
       MESSAGE(port << ": " << hz << " Hz of flight, latency mean " << 1e3 * mean << " ms, max " << 1e3 * most
                    << " ms on the wall");
       CHECK(hz == doctest::Approx(rate_hz).epsilon(f.quiet() ? 0.05 : 0.5));
-      CHECK(heard.front().t < 20);
+      CHECK(received.front().t < 20);
       CHECK(flight->import(port, "refused") == 0);
       CHECK(flight->import(port, "received") ==
-            doctest::Approx(static_cast<double>(heard.size())).epsilon(0.01));
+            doctest::Approx(static_cast<double>(received.size())).epsilon(0.01));
       CHECK(mean > 10e-6);  // no thread wakes in less
       CHECK(mean < (f.quiet() ? 0.02 : 0.5));
       CHECK(most >= mean);
@@ -359,7 +359,7 @@ TEST_CASE(
 
 TEST_CASE("a planner in another host leads an aircraft round a no-fly zone") {
   const Fleet& f = fleet();
-  for (const Flight* flight : {&f.far, &f.laptop}) REQUIRE_MESSAGE(flight->code == 0, flight->said);
+  for (const Flight* flight : {&f.far, &f.laptop}) REQUIRE_MESSAGE(flight->code == 0, flight->printed);
   CHECK(f.plans > 0);
   CHECK(f.far.truth.back().value.height_m > 50);
   double least = 1e9, passed = 0;

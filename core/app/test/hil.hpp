@@ -157,7 +157,7 @@ struct Scratch {
 
 struct Flown {
   int code = -1;
-  std::string json, said, peer;
+  std::string json, printed, peer;
   std::vector<Row> truth;
   double wall = 0;
   bool measured = true;    ///< false: the machine was too slow for the flight
@@ -209,7 +209,7 @@ inline Flown fly_peer(const Scratch& s, const Plan& plan, const std::vector<std:
   peer.signal(SIGTERM);
   peer.wait(5);
   f.json = host.out();
-  f.said = host.err();
+  f.printed = host.err();
   f.peer = peer.out() + peer.err();
   f.truth = rows(file("truth.csv"));
   const double late = number(f.peer, "worst_late_ms", "worst_late_wall_ms");
@@ -233,9 +233,9 @@ inline Flown fly_undisturbed(const Scratch& s, const Plan& plan,
   }
   Flown none;
   none.measured = false;
-  none.said = "this machine stood still in each flight, at worst for " + held_up + " of " +
-              std::to_string(std::lround(1e3 * most_s)) +
-              " ms that are allowed: nothing can be said of the flight controller's link";
+  none.printed = "this machine stood still in each flight, at worst for " + held_up + " of " +
+                 std::to_string(std::lround(1e3 * most_s)) +
+                 " ms that are allowed: nothing can be said of the flight controller's link";
   return none;
 }
 
@@ -257,7 +257,7 @@ inline Flown fly_sim(const Scratch& s, const Plan& plan) {
   Process host(words, s.folder / "sim.json", s.folder / "sim.err");
   f.code = host.wait(120);
   f.json = host.out();
-  f.said = host.err();
+  f.printed = host.err();
   return f;
 }
 

@@ -46,9 +46,9 @@ double largest_step(const std::vector<Row>& truth, double from, double to, std::
 
 /// False: the machine stood still in every flight, which fails a long campaign.
 bool flown(const Flown& f) {
-  const std::string said = f.said + f.peer;
-  if (!f.measured && !in_full) MESSAGE("NOT MEASURED: " << said);
-  if (f.measured || in_full) REQUIRE_MESSAGE(f.code == 0, said);
+  const std::string printed = f.printed + f.peer;
+  if (!f.measured && !in_full) MESSAGE("NOT MEASURED: " << printed);
+  if (f.measured || in_full) REQUIRE_MESSAGE(f.code == 0, printed);
   return f.measured;
 }
 
@@ -109,7 +109,7 @@ TEST_CASE("missing sensors are reported before arming, by name") {
     std::vector<std::string> words = lack.words;
     words.insert(words.end(), {"--arm-at", "inf"});
     const Flown f = fly_peer(s, {"manage.progress.circuits >= 1", 6, 1, 60}, words, false);
-    CHECK_MESSAGE(f.said.find(lack.reported) != std::string::npos, f.said);
+    CHECK_MESSAGE(f.printed.find(lack.reported) != std::string::npos, f.printed);
   }
 }
 
@@ -168,13 +168,13 @@ TEST_CASE(
     "on without a step") {
   const Flown& plain = undisturbed();
   if (!flown(plain)) return;
-  REQUIRE_MESSAGE(plain.truth.size() > 1000, plain.said);
+  REQUIRE_MESSAGE(plain.truth.size() > 1000, plain.printed);
   const Flown& f = disturbed().flown;
   if (!flown(f)) return;
   for (const char* code : {"fcu_serial.controller_back(5",
                            "fcu_serial.pilot_flies(fcu_serial.attitude_switch, fcu_serial.throttle_switch)",
                            "fcu_serial.pilot_hands_over", "fcu_serial.radio_frozen", "fcu_serial.radio_back"})
-    CHECK_MESSAGE(f.said.find(code) != std::string::npos, f.said);
+    CHECK_MESSAGE(f.printed.find(code) != std::string::npos, f.printed);
 
   const Deviation d{plain.truth, f};
   double back = 0;

@@ -210,18 +210,18 @@ TEST_CASE("the progress line shows no invalid figure") {
     for (const char* sensor : {"imu_works", "gnss_works", "mag_works", "baro_works", "pitot_works"})
       set_parameter(flight, "sim", sensor, value);
   };
-  const auto says = [&](const char* words) {
+  const auto shows = [&](const char* words) {
     return progress_line(graph, flight).find(words) != std::string::npos;
   };
   fly_until(40);
-  CHECK_FALSE(says("height -"));
-  CHECK_FALSE(says("airspeed -"));
+  CHECK_FALSE(shows("height -"));
+  CHECK_FALSE(shows("airspeed -"));
   sensors(false);
   fly_until(41);
   CAPTURE(progress_line(graph, flight));
-  CHECK(says("height -"));
-  CHECK(says("airspeed -"));
+  CHECK(shows("height -"));
+  CHECK(shows("airspeed -"));
   sensors(true);
   fly_until(45);
-  CHECK_FALSE(says("height -"));
+  CHECK_FALSE(shows("height -"));
 }

@@ -38,7 +38,7 @@ std::string reported(const std::function<void()>& fault) {
 }
 
 /// Output on standard error during `words`.
-std::string heard(const std::function<void()>& words) {
+std::string error_output(const std::function<void()>& words) {
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() / ("fulmar-program-test-" + std::to_string(getpid()));
   const int own = dup(STDERR_FILENO);
@@ -88,7 +88,7 @@ TEST_CASE("an exception with a text for users keeps it") {
 }
 
 TEST_CASE("messages of the host contain no control characters and no time stamp") {
-  const std::string text = heard([] {
+  const std::string text = error_output([] {
     speak_on_standard_error();
     say_aloud(
         "a\x1b[2J\xc2\x9b"

@@ -98,10 +98,11 @@ class Draw {
   }
 
   /// "outer: {use: slc, fallback: tecs}"
-  std::string role(const std::string& name, std::vector<std::string> who, const std::string& set = "") {
-    std::shuffle(who.begin(), who.end(), random_);
-    const bool fallback = who.size() > 1 && chance(0.7);
-    return name + ": {use: " + who[0] + set + (fallback ? ", fallback: " + who[1] : "") + "}";
+  std::string role(const std::string& name, std::vector<std::string> candidates,
+                   const std::string& set = "") {
+    std::shuffle(candidates.begin(), candidates.end(), random_);
+    const bool fallback = candidates.size() > 1 && chance(0.7);
+    return name + ": {use: " + candidates[0] + set + (fallback ? ", fallback: " + candidates[1] : "") + "}";
   }
 
   std::string assignments(bool cruise) {
@@ -260,7 +261,7 @@ void check_guards(const Graph& graph, const Flown& flown) {
     const std::int64_t later_ns = guard.at_ns + patience_ns;
     if (later_ns > flown.result.last_ns) continue;  // the flight was over by then
     const bool announced = std::any_of(flown.failsafe.begin(), flown.failsafe.end(),
-                                       [&](const auto& said) { return said.first <= later_ns; });
+                                       [&](const auto& printed) { return printed.first <= later_ns; });
     const std::string broken = Chain(graph, flown.result, later_ns).broken();
     INFO(guard.component << ": " << guard.what << ": " << guard.action);
     CHECK((announced ? "" : broken) == "");

@@ -143,16 +143,16 @@ auto patiently(const Make& make) {
 
 /// Subscribes to all channels, reads until the flight has ended, and stores the arrival times of the inertial
 /// samples.
-class Onlooker {
+class LiveClient {
  public:
-  explicit Onlooker(const LiveAddress& target)
+  explicit LiveClient(const LiveAddress& target)
       : session_(patiently([&] { return std::make_unique<Session>(target); })) {
     for (const auto& [topic, channel] : session_->channels()) session_->subscribe(topic);
     thread_ = std::thread([this] { read(); });
   }
-  ~Onlooker() { thread_.join(); }
-  Onlooker(const Onlooker&) = delete;
-  Onlooker& operator=(const Onlooker&) = delete;
+  ~LiveClient() { thread_.join(); }
+  LiveClient(const LiveClient&) = delete;
+  LiveClient& operator=(const LiveClient&) = delete;
 
   /// Waits for the end of the flight.
   const std::vector<std::int64_t>& times_ns() {
@@ -190,9 +190,9 @@ class Onlooker {
   std::thread thread_;
 };
 
-void wait_until_heard(const Onlooker& onlooker) {
-  for (int i = 0; i < 2000 && !onlooker.hears(); ++i) std::this_thread::sleep_for(milliseconds(10));
-  REQUIRE(onlooker.hears());
+void wait_until_heard(const LiveClient& client) {
+  for (int i = 0; i < 2000 && !client.hears(); ++i) std::this_thread::sleep_for(milliseconds(10));
+  REQUIRE(client.hears());
 }
 
 std::vector<std::int64_t> logged_times_ns(const WholeLog& log, const std::string& topic) {
@@ -204,11 +204,11 @@ std::vector<std::int64_t> logged_times_ns(const WholeLog& log, const std::string
 }
 
 /// The log has no gap, and neither has the client's data from its first sample on.
-void check_whole(const json& result, const fs::path& file, Onlooker& onlooker) {
+void check_whole(const json& result, const fs::path& file, LiveClient& client) {
   CHECK(result.at("log_dropped") == 0);
   const WholeLog log = read_mcap(file);
   CHECK(log.complete);
-  const std::vector<std::int64_t> all = logged_times_ns(log, "/vehicle/imu"), &seen = onlooker.times_ns();
+  const std::vector<std::int64_t> all = logged_times_ns(log, "/vehicle/imu"), &seen = client.times_ns();
   CHECK(all.size() == static_cast<std::size_t>(400 * (settled_s + flown_s)));
   for (std::size_t i = 1; i < all.size(); ++i)
     if (all[i] != all[i - 1] + tick_ns) FAIL_CHECK("the log misses a tick after " << all[i - 1]);
@@ -216,10 +216,10 @@ void check_whole(const json& result, const fs::path& file, Onlooker& onlooker) {
   const auto first = std::lower_bound(all.begin(), all.end(), seen.front());
   CHECK(std::vector(first, all.end()) == seen);
   CHECK(seen.size() > 400 * 4);
-  CHECK(onlooker.worst_delay_s() < stall_s + onlooker.standstill_s());
-  MESSAGE("the loop or the way to the client stood still for " << 1e3 * onlooker.worst_delay_s()
-                                                               << " ms at most, the machine for "
-                                                               << 1e3 * onlooker.standstill_s() << " ms");
+  CHECK(client.worst_delay_s() < stall_s + client.standstill_s());
+  MESSAGE("the loop or the way to the client stood still for "
+          << 1e3 * client.worst_delay_s() << " ms at most, the machine for " << 1e3 * client.standstill_s()
+          << " ms");
 }
 
 void check_others_whole(const json& result, bool live, bool dds) {
@@ -313,7 +313,7 @@ class StuckClient {
 TEST_CASE(
     "everything at full rate to a log, two clients and a DDS reader at 400 Hz: nothing is dropped anywhere") {
   Running flight;
-  Onlooker one(flight.target()), two(flight.target());
+  LiveClient one(flight.target()), two(flight.target());
   Peer reader("read", state_words + "1200");
   CHECK(reader.lines() == 1200);
   const json result = flight.result();
@@ -329,7 +329,7 @@ TEST_CASE(
     "a client that subscribes to everything and never reads loses samples; the other client and the log lose "
     "none") {
   Running flight;
-  Onlooker reading(flight.target());
+  LiveClient reading(flight.target());
   const StuckClient stuck(flight.target(),
                           patiently([&] { return Session(flight.target()).channels().size(); }));
   const json result = flight.result();
@@ -341,7 +341,7 @@ TEST_CASE(
 
 TEST_CASE("a flood from DDS is cut and counted; it does not affect the log, the client or the loop") {
   Running flight;
-  Onlooker reading(flight.target());
+  LiveClient reading(flight.target());
   wait_until_heard(reading);
   Peer flood("publish",
              "rt/plan_edits fulmar_msgs::msg::dds_::PlanEdit_ reliable 10000 " + edit_in_hex() + "*60000");
@@ -364,7 +364,7 @@ TEST_CASE(
     "over" *
     doctest::skip(!FULMAR_PRELOAD_TESTS)) {
   Running flight(FULMAR_HANGING_DISK);
-  Onlooker reading(flight.target());
+  LiveClient reading(flight.target());
   wait_until_heard(reading);
   std::this_thread::sleep_for(seconds(2));
   const auto size = [&] { return fs::file_size(flight.log().string() + ".part"); };

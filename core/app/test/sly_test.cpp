@@ -97,33 +97,33 @@ TEST_CASE("a plugin that ends a running host in a swap is named, with the place 
   for (const Sly& sly : all) {
     if (!tried(sly) || sly.name == "sly_last"s) continue;
     CAPTURE(sly.name);
-    const fs::path said = folder().path / "said";
-    for (const std::string& old : {log + ".part", said.string()}) fs::remove(old);
+    const fs::path printed = folder().path / "said";
+    for (const std::string& old : {log + ".part", printed.string()}) fs::remove(old);
     const std::string flown = sly_mission("sly_setsid");
     const std::string host = FULMAR_BIN_DIR "/fulmar run " + flown +
                              " --speed real --arm off --live 127.0.0.1:0 --log " + log + " 2>" +
-                             said.string() + " & echo $!; wait $!; echo $?";
+                             printed.string() + " & echo $!; wait $!; echo $?";
     FILE* const pipe = popen(("ulimit -c 0; " + host).c_str(), "r");
     REQUIRE(pipe != nullptr);
     int process = 0, code = 0;
     REQUIRE(std::fscanf(pipe, "%d", &process) == 1);
     const std::string at = "live view: ws://";
     std::size_t begin = std::string::npos;
-    for (int i = 0; i < 6000 && (begin = text(said).find(at)) == std::string::npos; ++i)
+    for (int i = 0; i < 6000 && (begin = text(printed).find(at)) == std::string::npos; ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    std::string port = begin == std::string::npos ? "" : text(said).substr(begin + at.size());
+    std::string port = begin == std::string::npos ? "" : text(printed).substr(begin + at.size());
     port.resize(std::min(port.size(), port.find('\n')));
     setenv("FULMAR_LIVE", port.c_str(), 1);
     fulmar("swap sly " + plugin(sly.name));
     unsetenv("FULMAR_LIVE");
-    if (text(said).find(sly.name) == std::string::npos) kill(process, SIGKILL);
+    if (text(printed).find(sly.name) == std::string::npos) kill(process, SIGKILL);
     CHECK(std::fscanf(pipe, "%d", &code) == 1);
     pclose(pipe);
     // in a flight: it had begun, and failed
     CHECK(code == (sly.code == 4 ? 1 : sly.code));
-    CHECK_MESSAGE(text(said).find(std::string(sly.reported) + " app.log_until_end(" + log + ".part)") !=
+    CHECK_MESSAGE(text(printed).find(std::string(sly.reported) + " app.log_until_end(" + log + ".part)") !=
                       std::string::npos,
-                  text(said));
+                  text(printed));
   }
 }
 

@@ -109,17 +109,17 @@ class Flown {
   FlightResult finish() { return flight_.finish(); }
   /// Time of the first message with this code since `from_s`; -1: none. Needs FULMAR_MESSAGES=codes.
   double reported_s(const std::string& code, double from_s) const {
-    for (const auto& [t_s, line] : said)
+    for (const auto& [t_s, line] : printed)
       if (t_s >= from_s && line.find(code) != std::string::npos) return t_s;
     return -1;
   }
 
   std::vector<Row> rows;
-  std::vector<std::pair<double, std::string>> said;
+  std::vector<std::pair<double, std::string>> printed;
 
  private:
   FlightOptions watched(FlightOptions o) {
-    o.say = [this](const std::string& line, bool) { said.emplace_back(now_s_, line); };
+    o.say = [this](const std::string& line, bool) { printed.emplace_back(now_s_, line); };
     return o;
   }
   static Source look(const Graph& graph, const std::string& component, const std::string& output) {

@@ -60,11 +60,11 @@ TEST_CASE("keys of the file are known, given once and of the right type") {
 
 TEST_CASE("a name that is too long for the log is rejected with its line, one of the maximum length is not") {
   const std::string c47(47, 'c'), c48(48, 'c'), p63(63, 'p'), p64(64, 'p');
-  const auto said = [](const std::string& text) {
+  const auto printed = [](const std::string& text) {
     return changed("\ncomponents:\n", "\ncomponents:\n  " + text + "\n");
   };
-  CHECK(said(c47 + ": {use: score}").find("graph.name_too_long(") == std::string::npos);
-  CHECK(said(c48 + ": {use: score}").find("21: components: graph.name_too_long(" + c48 + ", 48, 47)") !=
+  CHECK(printed(c47 + ": {use: score}").find("graph.name_too_long(") == std::string::npos);
+  CHECK(printed(c48 + ": {use: score}").find("21: components: graph.name_too_long(" + c48 + ", 48, 47)") !=
         std::string::npos);
   const auto role = [](const std::string& name) {
     return changed("\nroles:\n", "\nroles:\n  " + name + ": {in: {}, out: {}}\n");

@@ -34,7 +34,7 @@ struct Place {
     return folder.path / name;
   }
   // The message about a file; "" when it may be loaded.
-  std::string said(const std::string& name) const {
+  std::string printed(const std::string& name) const {
     try {
       check_private_file(folder.path / name);
       return "";
@@ -51,12 +51,12 @@ TEST_CASE("a file that all may write is rejected") {
   const fs::path real = fs::canonical(place.folder.path);
   ::chmod((real / "build/law.so").c_str(), 0646);
   const std::string fault = "graph.file_not_private(law.so, " + (real / "build/law.so").string() + ")";
-  CHECK(place.said("build/law.so") == fault);
+  CHECK(place.printed("build/law.so") == fault);
   place.put("open/x.so", "x");
   ::chmod((real / "open").c_str(), 0777);
-  CHECK(place.said("open/x.so") == "graph.folder_not_private(x.so, " + (real / "open").string() + ")");
+  CHECK(place.printed("open/x.so") == "graph.folder_not_private(x.so, " + (real / "open").string() + ")");
   ::chmod((real / "open").c_str(), 01777);  // like /tmp: other users cannot replace it
-  CHECK(place.said("open/x.so") == "");
+  CHECK(place.printed("open/x.so") == "");
 }
 
 TEST_CASE("a file of another user is rejected") {
@@ -67,10 +67,10 @@ TEST_CASE("a file of another user is rejected") {
   Place place;
   REQUIRE(::chown((place.folder.path / "other.so").c_str(), 4711, 4711) == 0);
   unsetenv("SUDO_UID");
-  CHECK(place.said("other.so") == "graph.file_owner_foreign(other.so, 4711, " +
-                                      (fs::canonical(place.folder.path) / "other.so").string() + ")");
+  CHECK(place.printed("other.so") == "graph.file_owner_foreign(other.so, 4711, " +
+                                         (fs::canonical(place.folder.path) / "other.so").string() + ")");
   setenv("SUDO_UID", "4711", 1);
-  CHECK(place.said("other.so") == "");
+  CHECK(place.printed("other.so") == "");
   unsetenv("SUDO_UID");
 }
 
@@ -82,13 +82,13 @@ TEST_CASE("a mission checks before it opens a file, and reports the place of its
   const std::string store = (place.folder.path / "store").string();
   setenv("FULMAR_STORE", store.c_str(), 1);
   setenv("FULMAR_PROBE", "/nowhere/fulmar-probe", 1);
-  std::string said;
+  std::string printed;
   try {
     load_mission(file);
   } catch (const Error& fault) {
-    said = fault.what();
+    printed = fault.what();
   }
-  CHECK(said.find("m.yaml:3: components.mine: graph.file_not_private(law.so, ") != std::string::npos);
+  CHECK(printed.find("m.yaml:3: components.mine: graph.file_not_private(law.so, ") != std::string::npos);
   CHECK_FALSE(fs::exists(store));
   unsetenv("FULMAR_PROBE");
   unsetenv("FULMAR_STORE");

@@ -31,11 +31,11 @@ TEST_CASE("a mission names shipped files, and a missing one is reported with the
   Mission mission;
   mission.folder.write("anaconda.yaml", "{}");  // similar, but not the named file
   mission.text = "extends: fulmar:missions/comon.yaml\n";
-  const std::string said = mission.faults();
-  CHECK(
-      said.find("hourglass.yaml:1: graph.extends_file_invalid(graph.file_missing(fulmar:missions/comon.yaml, "
-                ". Did you mean 'fulmar:missions/common.yaml'?))") == 0);
-  CHECK(said.find("aerosonde") == std::string::npos);
+  const std::string printed = mission.faults();
+  CHECK(printed.find(
+            "hourglass.yaml:1: graph.extends_file_invalid(graph.file_missing(fulmar:missions/comon.yaml, "
+            ". Did you mean 'fulmar:missions/common.yaml'?))") == 0);
+  CHECK(printed.find("aerosonde") == std::string::npos);
 }
 
 TEST_CASE("a shipped mission is loaded by its name") {

@@ -66,13 +66,13 @@ TEST_CASE("a fault in live: is reported with its line and the valid form") {
 }
 
 TEST_CASE("the address of tiles is unambiguous in a header and in a pattern") {
-  const auto said = [](const std::string& url) {
+  const auto printed = [](const std::string& url) {
     return faults("live: {tiles: \"" + url + "\", attribution: Example}");
   };
   for (const char* url : {"https://tile.example.org/{z}/{x}/{y}.png", "http://127.0.0.1:8080/{x}-{y}-{z}",
                           "https://a.b/{z}/{x}/{y}@2x.jpg?key=abc&v=1"}) {
     CAPTURE(url);
-    CHECK(said(url) == "");
+    CHECK(printed(url) == "");
   }
   for (const char* url : {"https://tile.example.org/{z}/{x}.png",
                           "https://tile.example.org/{z}/{x}/{y}/{z}",
@@ -97,8 +97,8 @@ TEST_CASE("the address of tiles is unambiguous in a header and in a pattern") {
                           "https://[::1]:80/{z}/{x}/{y}",
                           "https://a.b#/{z}/{x}/{y}"}) {
     CAPTURE(url);
-    holds(said(url), "hourglass.yaml:6: graph.live_tiles_invalid(" +
-                         std::string(url).substr(0, std::string(url).find('\\')));
+    holds(printed(url), "hourglass.yaml:6: graph.live_tiles_invalid(" +
+                            std::string(url).substr(0, std::string(url).find('\\')));
   }
   holds(faults("live: {attribution: Example}"), "6: graph.live_tiles_missing");
   Mission mission;

@@ -269,13 +269,13 @@ TEST_CASE("copies with a flipped byte rarely crash the host") {
     const pid_t host = ::fork();
     REQUIRE(host >= 0);
     if (host == 0) {
-      int said = accepted;
+      int printed = accepted;
       try {
         Library::open(write("flipped.so", bytes));
       } catch (const Error& e) {
-        said = std::string(e.what()).find("flipped.so") != std::string::npos ? refused : misnamed;
+        printed = std::string(e.what()).find("flipped.so") != std::string::npos ? refused : misnamed;
       }
-      ::_exit(said);
+      ::_exit(printed);
     }
     int status = 0;
     REQUIRE(::waitpid(host, &status, 0) == host);

@@ -196,9 +196,9 @@ TEST_CASE("a process with few free descriptors can probe a plugin") {
   REQUIRE(::getrlimit(RLIMIT_NOFILE, &before) == 0);
   const rlimit few{64, before.rlim_max};
   REQUIRE(::setrlimit(RLIMIT_NOFILE, &few) == 0);
-  const std::string said = refusal(plugin("good"));
+  const std::string printed = refusal(plugin("good"));
   ::setrlimit(RLIMIT_NOFILE, &before);
-  CHECK(said == "accepted");
+  CHECK(printed == "accepted");
 }
 
 TEST_CASE("a plugin that changes the floating-point mode is rejected") {
@@ -261,13 +261,13 @@ TEST_CASE("a flown file is found again by its SHA-256, libraries and scripts ali
 
 TEST_CASE("a missing version is named") {
   const std::string sha(64, 'e');
-  std::string said;
+  std::string printed;
   try {
     fulmar::core::version_that_flew("my_law.so", "1.4.0", sha);
   } catch (const fulmar::core::Error& fault) {
-    said = fault.what();
+    printed = fault.what();
   }
-  CHECK(said ==
+  CHECK(printed ==
         "loader.stored_plugin_missing(my_law.so, 1.4.0, " + sha + ", " + (folder() / "store").string() + ")");
 }
 

@@ -38,7 +38,7 @@ bool FlightEnd::reached() {
 
 void FlightEnd::failsafe(const Event& why) {
   if (ending_.in_failsafe()) return;
-  end_by(Ending::Cue::nobody);
+  end_by(Ending::Cue::none_left);
   failsafe_words_ = why.words;
   recorder_.note(why);
 }

@@ -78,7 +78,7 @@ void Roles::stop(int component, Code code) {
   guards.push_back({state_.now_ns, name, what, "held"});
   const std::size_t guard = guards.size() - 1;
   fall_back(component, guard);
-  end_tenures([component](int who, int) { return who == component; });
+  end_tenures([component](int filler, int) { return filler == component; });
   report_blind("done", state_.graph.judge.done.get(), component);
   report_blind("failed", state_.graph.judge.failed.get(), component);
   report_blind(state_.graph.any, component);

@@ -40,8 +40,8 @@ void Recorder::note(const Event& e, bool aloud) {
   if (!state_.options.say || !aloud) return;
   char time[32];
   std::snprintf(time, sizeof time, "%8.2f s  ", 1e-9 * static_cast<double>(now_ns));
-  const std::string who = e.component[0] != '\0' ? e.component.data() + std::string(": ") : "";
-  state_.options.say(time + who + e.words.data(), e.severity >= Severity::warning);
+  const std::string prefix = e.component[0] != '\0' ? e.component.data() + std::string(": ") : "";
+  state_.options.say(time + prefix + e.words.data(), e.severity >= Severity::warning);
 }
 
 void Recorder::note_refusals(Unit& unit) noexcept {

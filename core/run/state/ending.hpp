@@ -31,7 +31,7 @@ class Ending {
     failed,          // the same
     duration,        // the requested duration has been flown
     timeout,         // of a simulated flight
-    nobody,          // a role has no usable component
+    none_left,       // a role has no usable component
     silence,         // the failsafe is over, and a second has passed since
     disarmed,        // there is no armed aircraft, and the end has been decided
     signal,          // to the host, and there is no armed aircraft

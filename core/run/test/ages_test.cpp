@@ -201,28 +201,28 @@ TEST_CASE("a component without a role between the laws and the vehicle is watche
 }
 
 /// Warnings and guard events of a flight of four seconds.
-struct Said {
+struct Printed {
   std::vector<std::string> lines;
   FlightResult result;
 };
-Said said_of(const std::string& tail, const std::vector<std::pair<std::string, std::string>>& set = {},
-             double until_s = 4) {
+Printed printed_by(const std::string& tail, const std::vector<std::pair<std::string, std::string>>& set = {},
+                   double until_s = 4) {
   const Graph g = mission(tail, set);
   FlightOptions o = options(until_s);
-  Said said;
+  Printed printed;
   o.say = [&](const std::string& line, bool warning) {
-    if (warning) said.lines.push_back(line);
+    if (warning) printed.lines.push_back(line);
   };
   Flight flight(g, o);
-  said.result = flight.run();
-  return said;
+  printed.result = flight.run();
+  return printed;
 }
 
 TEST_CASE("a regular output that stops is reported, and so is its return") {
   // a filter in a role, as the lab has it
-  CHECK(said_of(one_phase).lines.empty());
-  const Said filter =
-      said_of(one_phase, {{"filter.mute_at", "0.1"}, {"filter.until", "2.5"}, {"filter.mute_again", "2.8"}});
+  CHECK(printed_by(one_phase).lines.empty());
+  const Printed filter = printed_by(
+      one_phase, {{"filter.mute_at", "0.1"}, {"filter.until", "2.5"}, {"filter.mute_again", "2.8"}});
   REQUIRE(filter.lines.size() == 3);
   CHECK(filter.lines[0] == "    1.10 s  filter: run.output_silent_event(run.output_silent(signal, 1.0))");
   CHECK(filter.lines[1] == "    2.50 s  filter: run.output_resumed(signal)");
@@ -238,7 +238,7 @@ TEST_CASE("a regular output that stops is reported, and so is its return") {
   const std::string relay =
       "  sim: {fills: vehicle, use: lab/Cart, in: {command: relay.echo}}\n"
       "  relay: {use: lab/Late, in: {never: law.command}, params: {mute_at: 0.5 s}}\n";
-  const Said relayed = said_of(relay + one_phase);
+  const Printed relayed = printed_by(relay + one_phase);
   REQUIRE(relayed.lines.size() == 1);
   CHECK(relayed.lines[0].starts_with("    1.5"));  // the outputs are checked in turn
   CHECK(relayed.lines[0].find("relay: run.output_silent_event(run.output_silent(echo, 1.0))") !=
@@ -246,18 +246,18 @@ TEST_CASE("a regular output that stops is reported, and so is its return") {
   // at its own rate; ticks without a step do not count
   const std::string slow =
       "  filter: {fills: sense, use: lab/Filter, rate: 100 Hz, params: {mute_at: 0.1 s}}\n";
-  CHECK(said_of(slow + one_phase).lines.size() == 1);
+  CHECK(printed_by(slow + one_phase).lines.size() == 1);
 }
 
 TEST_CASE("an output in every third step is regular; one with pauses has longer limits") {
-  CHECK(said_of(one_phase, {{"filter.every", "3"}}).lines.empty());
-  CHECK(said_of(one_phase, {{"filter.every", "3"}, {"filter.mute_at", "0.1"}}).lines.size() == 1);
+  CHECK(printed_by(one_phase, {{"filter.every", "3"}}).lines.empty());
+  CHECK(printed_by(one_phase, {{"filter.every", "3"}, {"filter.mute_at", "0.1"}}).lines.size() == 1);
   // 25 samples are enough, 15 are not
-  CHECK(said_of(one_phase, {{"filter.mute_at", "-0.9375"}}).lines.size() == 1);
-  CHECK(said_of(one_phase, {{"filter.mute_at", "-0.9625"}}).lines.empty());
+  CHECK(printed_by(one_phase, {{"filter.mute_at", "-0.9375"}}).lines.size() == 1);
+  CHECK(printed_by(one_phase, {{"filter.mute_at", "-0.9625"}}).lines.empty());
   // pauses of 0.2 s: two seconds of silence are one
   const auto pausing = [](double until_s) {
-    return said_of(one_phase, {{"filter.every", "80"}, {"filter.mute_at", "5"}}, until_s).lines.size();
+    return printed_by(one_phase, {{"filter.every", "80"}, {"filter.mute_at", "5"}}, until_s).lines.size();
   };
   CHECK(pausing(6.7) == 0);
   CHECK(pausing(7.2) == 1);
@@ -270,13 +270,13 @@ TEST_CASE(
   for (const std::string key : {"failed", "done"}) {
     const std::string watched =
         fence + one_phase + key + ": {when: \"fence.signal.x_m > 1e6 m\", for: 2 s}\n";
-    CHECK(said_of(watched).lines.empty());
-    const Said silent = said_of(watched, {{"fence.mute_at", "0.1"}});
+    CHECK(printed_by(watched).lines.empty());
+    const Printed silent = printed_by(watched, {{"fence.mute_at", "0.1"}});
     REQUIRE(silent.lines.size() == 1);
     CHECK(silent.lines[0].find("1.10 s  fence: run.output_silent_event(run.output_silent(signal, 1.0))") !=
           std::string::npos);
     CHECK(silent.result.guards.size() == 1);
-    const Said stopped = said_of(watched, {{"fence.stop_at", "0.1"}});
+    const Printed stopped = printed_by(watched, {{"fence.stop_at", "0.1"}});
     REQUIRE(stopped.lines.size() == 2);
     CHECK(stopped.lines[0].find("fence: " + filter_broken) != std::string::npos);
     CHECK(stopped.lines[1] == "    0.10 s  fence: run.condition_dead(" + key + ", fence.signal.x_m > 1e6 m)");
@@ -286,8 +286,8 @@ TEST_CASE(
       "phases:\n"
       "  first:  {law: one, next: [{to: second, when: \"fence.signal.x_m > 1e6 m\"}]}\n"
       "  second: {law: two, next: [{to: first, when: \"sense.signal.x_m > 1e6 m\"}]}\n";
-  CHECK(said_of(phases, {{"fence.mute_at", "0.1"}}).lines.size() == 1);
-  const Said stopped = said_of(phases, {{"fence.stop_at", "0.1"}});
+  CHECK(printed_by(phases, {{"fence.mute_at", "0.1"}}).lines.size() == 1);
+  const Printed stopped = printed_by(phases, {{"fence.stop_at", "0.1"}});
   REQUIRE(stopped.lines.size() == 2);
   CHECK(stopped.lines[1].find("run.condition_dead(second, fence.signal.x_m > 1e6 m)") != std::string::npos);
 }
@@ -298,7 +298,7 @@ TEST_CASE("a phase that waits for a stopped component reports it at its start") 
       "phases:\n"
       "  first:  {law: one, next: [{to: second, when: \"sense.signal.tick_s > 1 s\"}]}\n"
       "  second: {law: two, next: [{to: first, when: \"fence.signal.tick_s > 2 s\"}]}\n";
-  const Said stopped = said_of(phases, {{"fence.stop_at", "0.1"}});
+  const Printed stopped = printed_by(phases, {{"fence.stop_at", "0.1"}});
   REQUIRE(stopped.lines.size() == 2);
   CHECK(stopped.lines[1].find("1.00 s  fence: run.condition_dead(first, fence.signal.tick_s > 2 s)") !=
         std::string::npos);
@@ -307,23 +307,23 @@ TEST_CASE("a phase that waits for a stopped component reports it at its start") 
 
 TEST_CASE("a law that sends nothing to the vehicle loses its role, when its inputs come") {
   const std::string law = "  one: {fills: law, use: lab/Mute}\n";
-  CHECK(said_of(law + with_fallback).lines.empty());
-  const Said fallen = said_of(law + with_fallback, {{"one.mute_at", "0.1"}});
+  CHECK(printed_by(law + with_fallback).lines.empty());
+  const Printed fallen = printed_by(law + with_fallback, {{"one.mute_at", "0.1"}});
   REQUIRE(fallen.result.guards.size() == 2);
   CHECK(fallen.result.guards[1].what == "run.command_missing(command)");
   CHECK(fallen.result.guards[1].action == "two takes over");
   CHECK(std::abs(fallen.result.guards[1].at_ns - 1'100'000'000) < 10'000'000);
   CHECK(fallen.result.outcome == Outcome::flown);
   // one that reports a fault itself is not reported again
-  CHECK(
-      said_of(law + with_fallback, {{"one.mute_at", "0.1"}, {"one.explains", "true"}}).result.guards.empty());
-  const Said lost = said_of(law + one_phase, {{"one.mute_at", "0.1"}});
+  CHECK(printed_by(law + with_fallback, {{"one.mute_at", "0.1"}, {"one.explains", "true"}})
+            .result.guards.empty());
+  const Printed lost = printed_by(law + one_phase, {{"one.mute_at", "0.1"}});
   CHECK(lost.result.outcome == Outcome::failed);
   CHECK(lost.result.guards.at(1).action == "failsafe");
   const Graph g = mission("  device: {use: lab/Ticker, run: driver}\n"s + one_phase);
   CHECK_FALSE(Intake(*find_named(g.components, "device")).all_younger_than(1'000'000'000, 0));  // has none
   // its inputs do not come: it has a reason, and publishes when they return
-  const Said waits = said_of(law + with_fallback, {{"one.mute_at", "0.1"}, {"filter.mute_at", "0.05"}});
+  const Printed waits = printed_by(law + with_fallback, {{"one.mute_at", "0.1"}, {"filter.mute_at", "0.05"}});
   REQUIRE(waits.result.guards.size() == 2);
   CHECK(waits.result.guards[0].component == "filter");
   CHECK(waits.result.guards[1].action == "its last sample stays");

@@ -438,17 +438,17 @@ TEST_CASE("a port that is in use does not prevent the flight") {
   Flight first(g, quick());
   Graph same = g;
   same.live.port = first.live_port();
-  std::vector<std::string> said;
+  std::vector<std::string> printed;
   FlightOptions o = quick(0.05);
   o.say = [&](const std::string& line, bool warning) {
-    if (warning) said.push_back(line);
+    if (warning) printed.push_back(line);
   };
   Flight second(same, o);
   CHECK(second.live_port() == 0);
   CHECK(second.run().outcome == Outcome::flown);
-  REQUIRE(said.size() == 1);
-  CHECK(holds(said[0], "run.live_view_missing("));
-  CHECK(holds(said[0], std::to_string(same.live.port)));
+  REQUIRE(printed.size() == 1);
+  CHECK(holds(printed[0], "run.live_view_missing("));
+  CHECK(holds(printed[0], std::to_string(same.live.port)));
 }
 
 TEST_CASE("the filler of a role publishes as the role: one topic for all of them") {

@@ -33,7 +33,7 @@ inline Graph craft(const std::string& tail, const std::vector<std::pair<std::str
   return load_mission(file.string(), o);
 }
 
-struct Said {
+struct Printed {
   std::vector<std::string> lines;
   std::vector<bool> warnings;
   int count(const std::string& part) const {
@@ -42,12 +42,12 @@ struct Said {
   }
 };
 
-inline FlightOptions listening(Said& said) {
+inline FlightOptions listening(Printed& printed) {
   FlightOptions o;
   o.log = false;
-  o.say = [&said](const std::string& line, bool warning) {
-    said.lines.push_back(line);
-    said.warnings.push_back(warning);
+  o.say = [&printed](const std::string& line, bool warning) {
+    printed.lines.push_back(line);
+    printed.warnings.push_back(warning);
   };
   return o;
 }

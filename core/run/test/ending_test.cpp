@@ -21,7 +21,7 @@ namespace {
 constexpr State states[] = {State::flying,    State::concluded, State::failsafe,
                             State::giving_up, State::silent,    State::over};
 constexpr Cue cues[] = {Cue::done,         Cue::failed,        Cue::duration,       Cue::timeout,
-                        Cue::nobody,       Cue::silence,       Cue::disarmed,       Cue::signal,
+                        Cue::none_left,    Cue::silence,       Cue::disarmed,       Cue::signal,
                         Cue::first_signal, Cue::second_signal, Cue::vehicle_failed, Cue::abandoned};
 
 bool in_failsafe(State s) { return s == State::failsafe || s == State::giving_up || s == State::silent; }
@@ -43,7 +43,7 @@ Ending::Step expected(State s, Cue c) {
       if (s == State::failsafe || s == State::giving_up) return {s, Act::report_duration, Reason::failsafe};
       return nothing;
     case Cue::timeout: return {State::over, Act::end, Reason::timeout};
-    case Cue::nobody:
+    case Cue::none_left:
       return in_failsafe(s) ? nothing : Ending::Step{State::failsafe, Act::none, Reason::none};
     case Cue::silence:
       if (s == State::failsafe) return {State::silent, Act::report_silent, Reason::failsafe};
@@ -148,7 +148,7 @@ TEST_CASE("an armed aircraft that is done flies on, is reported once, and ends w
 
 TEST_CASE("the failsafe's values are sent for their time, then nothing; a second later it is reported") {
   Ending e(2 * second);
-  e.take(Cue::nobody, 10 * second);
+  e.take(Cue::none_left, 10 * second);
   CHECK(e.steering(10 * second) == Ending::Steering::failsafe);
   CHECK(e.steering(12 * second - 1) == Ending::Steering::failsafe);
   CHECK(e.steering(12 * second) == Ending::Steering::nothing);
@@ -159,13 +159,13 @@ TEST_CASE("the failsafe's values are sent for their time, then nothing; a second
   CHECK(disarmed(e, 20) == std::vector{Act::end});
   CHECK(e.reason() == Reason::failsafe);
   Ending without(0);
-  without.take(Cue::nobody, 5);
+  without.take(Cue::none_left, 5);
   CHECK(without.steering(5) == Ending::Steering::nothing);
 }
 
 TEST_CASE("a failsafe without an armed aircraft ends a second after its values, failed") {
   Ending e(2 * second);
-  e.take(Cue::nobody, 0);
+  e.take(Cue::none_left, 0);
   CHECK(disarmed(e, 2.9).empty());
   CHECK(disarmed(e, 3) == std::vector{Act::end});
   CHECK(e.reason() == Reason::failsafe);
@@ -176,7 +176,7 @@ TEST_CASE(
   for (const bool failed : {false, true}) {
     Ending e(2 * second);
     armed(e, 1, [&](Facts& f) { (failed ? f.failed : f.done) = true; });
-    e.take(Cue::nobody, 2 * second);
+    e.take(Cue::none_left, 2 * second);
     CHECK(disarmed(e, 3) == std::vector{Act::end});
     CHECK(e.reason() == (failed ? Reason::failed : Reason::failsafe));
   }
@@ -184,8 +184,8 @@ TEST_CASE(
 
 TEST_CASE("a failsafe does not begin again, and a later verdict is reported once") {
   Ending e(2 * second);
-  e.take(Cue::nobody, 0);
-  e.take(Cue::nobody, 1 * second);
+  e.take(Cue::none_left, 0);
+  e.take(Cue::none_left, 1 * second);
   CHECK(e.steering(2 * second) == Ending::Steering::nothing);
   CHECK(armed(e, 2, [](Facts& f) { f.done = f.duration = true; }) == std::vector{Act::report_duration});
   CHECK(armed(e, 2.1, [](Facts& f) { f.duration = f.failed = true; }).empty());
@@ -225,7 +225,7 @@ TEST_CASE("a signal without an armed aircraft ends the flight, unless the end wa
 
 TEST_CASE("in silence a repeated signal ends the host at once") {
   Ending e(second);
-  e.take(Cue::nobody, 0);
+  e.take(Cue::none_left, 0);
   CHECK(armed(e, 2) == std::vector{Act::report_silent});
   CHECK(armed(e, 3, with_signal) == std::vector{Act::refuse_signal});
   CHECK(armed(e, 4, with_signal) == std::vector{Act::end});
@@ -234,7 +234,7 @@ TEST_CASE("in silence a repeated signal ends the host at once") {
 
 TEST_CASE("giving up in a failsafe ends it: silent at once, over after the silence") {
   Ending e(2 * second);
-  e.take(Cue::nobody, 0);
+  e.take(Cue::none_left, 0);
   CHECK(armed(e, 1, with_signal) == std::vector{Act::refuse_signal});
   CHECK(armed(e, 1.5, with_signal).empty());
   CHECK(e.state() == State::giving_up);

@@ -107,16 +107,16 @@ TEST_CASE("a phase hands over in the tick in which its condition has held for it
       "  second: {law: {use: two, set: {u: 0.7}}, next: [{to: third, when: \"vehicle.signal.tick_s >= 0.3 "
       "s\"}]}\n"
       "  third:  {law: two}\n");
-  std::vector<std::string> said;
+  std::vector<std::string> printed;
   FlightOptions o = options(0.5);
-  o.say = [&](const std::string& line, bool) { said.push_back(line); };
+  o.say = [&](const std::string& line, bool) { printed.push_back(line); };
   Flight flight(g, o);
   const FlightResult r = flight.run();
   REQUIRE(r.phases.size() == 3);
   CHECK(r.phases[1].name == "second");
   CHECK(r.phases[1].from_ns == 100'000'000);
   CHECK(r.phases[2].from_ns == 300'000'000);
-  CHECK(said[1] == "    0.10 s  run.phase_entered(second)");
+  CHECK(printed[1] == "    0.10 s  run.phase_entered(second)");
   // the new component got the last applied outputs of its role
   double taken = 0;
   std::memcpy(&taken, flight.sample(port(g, "two", "taken_over_frac")), sizeof taken);
@@ -317,14 +317,14 @@ TEST_CASE("a phase whose component and fallback are both stopped keeps the activ
       "  b: {law: {use: two, fallback: three}, next: [{to: c, when: \"vehicle.signal.tick_s >= 0.4 s\"}]}\n"
       "  c: {law: {use: one, fallback: two}}\n",
       {{"one.fault", "nan"}, {"one.fault_at", "0.1"}, {"two.fault", "throws"}, {"two.fault_at", "0.3"}});
-  std::vector<std::string> said;
+  std::vector<std::string> printed;
   FlightOptions o = options(2);
-  o.say = [&](const std::string& line, bool) { said.push_back(line); };
+  o.say = [&](const std::string& line, bool) { printed.push_back(line); };
   Flight flight(g, o);
   const FlightResult r = flight.run();
   CHECK(r.outcome == Outcome::flown);
   CHECK(value(g, flight, "sim", "applied", "by") == 3);
-  CHECK(said.back() == "    0.40 s  law: run.no_candidate(three)");
+  CHECK(printed.back() == "    0.40 s  law: run.no_candidate(three)");
 }
 
 TEST_CASE("a new component whose required input has no sample does not take over") {

@@ -83,12 +83,12 @@ TEST_CASE("a flight that is done without the mission's `flown` condition is abor
 }
 
 TEST_CASE("the verdict of a flight comes from a component, in one line") {
-  const std::string said = "  herald: {use: lab/Herald}\nverdict: herald.said\n";
+  const std::string printed = "  herald: {use: lab/Herald}\nverdict: herald.said\n";
   const std::string failed = "failed: \"vehicle.signal.tick_s > 0.2 s\"\n";
-  CHECK(called(said + failed).verdict == "crashed: the nose touched");
-  CHECK(called(said + failed, {{"herald.names", "false"}}).verdict == "failed: the nose touched");
-  CHECK(called(said + failed, {{"herald.at", "9"}}).verdict == "failed");  // there was no text
-  CHECK(called(said + "done: \"vehicle.signal.tick_s > 0.2 s\"\n").verdict == "flown: the nose touched");
+  CHECK(called(printed + failed).verdict == "crashed: the nose touched");
+  CHECK(called(printed + failed, {{"herald.names", "false"}}).verdict == "failed: the nose touched");
+  CHECK(called(printed + failed, {{"herald.at", "9"}}).verdict == "failed");  // there was no text
+  CHECK(called(printed + "done: \"vehicle.signal.tick_s > 0.2 s\"\n").verdict == "flown: the nose touched");
   CHECK_THROWS_WITH_AS(called("  herald: {use: lab/Herald}\nverdict: herald.other\n"),
                        doctest::Contains("graph.event_fields_missing(herald.other, Tally)"), Error);
 }

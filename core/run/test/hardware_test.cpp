@@ -15,8 +15,8 @@ TEST_CASE("while the vehicle does not obey, its controllers start again in every
       {"craft.arm_at", "1"}, {"craft.pilot_from", "2"}, {"craft.pilot_until", "4"}};
   for (const bool held : {true, false}) {
     const Graph g = craft(held ? "control: [law]\n" : "", set);
-    Said said;
-    Flight flight(g, listening(said));
+    Printed notes;
+    Flight flight(g, listening(notes));
     CHECK(fly_until(flight, 0.9));
     CHECK(hoard(g, flight) == doctest::Approx(held ? 0.0025 : 0.9025));  // not armed yet
     CHECK(fly_until(flight, 1.9));
@@ -32,8 +32,8 @@ TEST_CASE("while the vehicle does not obey, its controllers start again in every
 
 TEST_CASE("in simulation the controllers are free before arming, also without in_control") {
   const Graph g = craft("control: [law]\n", {{"craft.arm_at", "1"}, {"craft.pilot_from", "2"}}, "sim");
-  Said said;
-  Flight flight(g, listening(said));
+  Printed notes;
+  Flight flight(g, listening(notes));
   CHECK(fly_until(flight, 1.5));
   CHECK(hoard(g, flight) == doctest::Approx(1.5025));
   CHECK(fly_until(flight, 2.5));
@@ -50,10 +50,10 @@ TEST_CASE("while the vehicle does not obey, or the computer stands still, no out
         "  echo: {use: craft/Echo, in: {state: vehicle.status}}\nphases:\n  fly: {law: law_a}\n"
         "failed: \"echo.echo.tick_s < -1 s\"\n",
         set);
-    Said said;
-    Flight flight(g, listening(said));
+    Printed notes;
+    Flight flight(g, listening(notes));
     CHECK(fly_until(flight, until_s));
-    return said.count("run.output_silent_event(run.output_silent(echo, ");
+    return notes.count("run.output_silent_event(run.output_silent(echo, ");
   };
   CHECK(count({{"echo.mute_from", "1.2"}}, 2.15) == 0);
   CHECK(count({{"echo.mute_from", "1.2"}}, 2.25) == 1);
@@ -67,14 +67,14 @@ TEST_CASE("a controller in another thread starts again once, when control return
       "  law_b: {fills: law, use: craft/Hoarder, run: async, latency: 10 ms}\nphases:\n  fly: {law: "
       "law_b}\ncontrol: [law]\n",
       {{"craft.pilot_from", "1"}, {"craft.pilot_until", "3"}});
-  Said said;
-  FlightOptions o = listening(said);
+  Printed notes;
+  FlightOptions o = listening(notes);
   Flight flight(g, o);
   while (flight.now_ns() < 3'500'000'000 && flight.step())
     let_others_sleep();  // hardware does not wait for a thread
   CHECK(value(g, flight, "law_b", "activations_ratio", "") == 2);
   CHECK(hoard(g, flight, "law_b") < 0.6);
-  CHECK(said.count("law_b") == 0);
+  CHECK(notes.count("law_b") == 0);
 }
 
 TEST_CASE(
@@ -84,10 +84,10 @@ TEST_CASE(
                                                {"craft.pilot_until", "2"},
                                                {"law_a.refuse_from", "1.5"},
                                                {"law_a.refuse_until", late ? "2.5" : "1.8"}});
-    Said said;
-    Flight flight(g, listening(said));
+    Printed notes;
+    Flight flight(g, listening(notes));
     CHECK(fly_until(flight, 2.2));
-    CHECK((said.count("refuses to take over") > 0) == late);
+    CHECK((notes.count("refuses to take over") > 0) == late);
     CHECK(applied(g, flight) == doctest::Approx(late ? -0.25 : 0.2025));
   }
 }
@@ -95,10 +95,10 @@ TEST_CASE(
 TEST_CASE("a mission that is done while armed flies on until the aircraft is disarmed, and reports it once") {
   const Graph g =
       craft("done: \"vehicle.status.tick_s > 1 s\"\ntimeout: 1.5 s\n", {{"craft.disarm_at", "3"}});
-  Said said;
-  Flight flight(g, listening(said));
+  Printed notes;
+  Flight flight(g, listening(notes));
   CHECK(fly_until(flight, 2.9));
-  CHECK(said.count("run.end_deferred(done: , vehicle.status.tick_s > 1 s)") == 1);
+  CHECK(notes.count("run.end_deferred(done: , vehicle.status.tick_s > 1 s)") == 1);
   CHECK(obeyed(g, flight));
   while (flight.step()) {
   }
@@ -112,22 +112,22 @@ TEST_CASE("a mission that fails while armed continues until disarmed; disarmed i
   for (const double disarm_at : {2.0, 0.5}) {
     const Graph g =
         craft("failed: \"vehicle.status.tick_s > 1 s\"\n", {{"craft.disarm_at", std::to_string(disarm_at)}});
-    Said said;
-    Flight flight(g, listening(said));
+    Printed notes;
+    Flight flight(g, listening(notes));
     while (flight.step()) {
     }
     const FlightResult r = flight.finish();
     CHECK(r.outcome == Outcome::failed);
     CHECK(r.reason == "vehicle.status.tick_s > 1 s");
     CHECK(1e-9 * static_cast<double>(r.last_ns) == doctest::Approx(disarm_at > 1 ? 2 : 1.0025));
-    CHECK(said.count("run.end_deferred(failed: , vehicle.status.tick_s > 1 s)") == (disarm_at > 1 ? 1 : 0));
+    CHECK(notes.count("run.end_deferred(failed: , vehicle.status.tick_s > 1 s)") == (disarm_at > 1 ? 1 : 0));
   }
 }
 
 TEST_CASE("a duration does not end the flight of an armed aircraft") {
   const Graph g = craft("", {{"craft.disarm_at", "2"}});
-  Said said;
-  FlightOptions o = listening(said);
+  Printed notes;
+  FlightOptions o = listening(notes);
   o.duration_s = 1;
   const FlightResult r = Flight(g, o).run();
   CHECK(r.last_ns == 2'000'000'000);
@@ -141,15 +141,15 @@ TEST_CASE(
     "after a failsafe an armed aircraft hears nothing more, and the flight has failed when it is disarmed") {
   const Graph g =
       craft("done: \"vehicle.status.tick_s > 4 s\"\n", {{"law_a.fail_at", "1"}, {"craft.disarm_at", "5"}});
-  Said said;
-  Flight flight(g, listening(said));
+  Printed notes;
+  Flight flight(g, listening(notes));
   CHECK(fly_until(flight, 1.4));
   CHECK(applied(g, flight) == -0.25);
   CHECK(fly_until(flight, 1.6));
   CHECK_FALSE(obeyed(g, flight));
   CHECK(fly_until(flight, 4.9));
   CHECK_FALSE(obeyed(g, flight));
-  CHECK(said.count("run.failsafe_over") == 1);
+  CHECK(notes.count("run.failsafe_over") == 1);
   while (flight.step()) {
   }
   const FlightResult r = flight.finish();
@@ -162,8 +162,8 @@ TEST_CASE(
     "a signal is refused while armed; repeated within five seconds the aircraft is its pilot's at once") {
   const Graph g = craft("");
   std::atomic<int> interrupt{0};
-  Said said;
-  FlightOptions o = listening(said);
+  Printed notes;
+  FlightOptions o = listening(notes);
   o.interrupt = &interrupt;
   Flight flight(g, o);
   for (const double t : {1.0, 7.0}) {  // six seconds between them: both are first ones
@@ -173,7 +173,7 @@ TEST_CASE(
     CHECK(interrupt == 0);
     CHECK(obeyed(g, flight));
   }
-  CHECK(said.count("run.signal_refused") == 2);
+  CHECK(notes.count("run.signal_refused") == 2);
   CHECK(fly_until(flight, 11.9));
   interrupt = 15;
   CHECK(fly_until(flight, 11.91));
@@ -195,8 +195,8 @@ TEST_CASE(
     "a signal ends a flight on hardware at once when the aircraft is not armed, and one that is silent after "
     "a failsafe when repeated") {
   std::atomic<int> interrupt{2};
-  Said said;
-  FlightOptions o = listening(said);
+  Printed notes;
+  FlightOptions o = listening(notes);
   o.interrupt = &interrupt;
   const Graph unarmed = craft("", {{"craft.arm_at", "5"}});
   const FlightResult r = Flight(unarmed, o).run();
@@ -219,8 +219,8 @@ TEST_CASE(
     "what a vehicle tells stands on the terminal and in the log, with its severity; any bytes become one "
     "line") {
   const Graph g = craft("tell: [vehicle.notices, craft.remark]\n", {{"craft.note_at", "0.5"}});
-  Said said;
-  FlightOptions o = listening(said);
+  Printed notes;
+  FlightOptions o = listening(notes);
   o.log = true;
   o.log_file = folder().path / "told.mcap";
   Flight flight(g, o);
@@ -230,8 +230,8 @@ TEST_CASE(
       "    0.00 s  run.phase_entered(flight)", "    0.50 s  craft: all is well",
       "    0.50 s  craft: bell  rings",
       "    0.50 s  craft: changed"};  // once, though it is written in every tick
-  CHECK(said.lines == lines);
-  CHECK(said.warnings == std::vector<bool>{false, false, true, false});
+  CHECK(notes.lines == lines);
+  CHECK(notes.warnings == std::vector<bool>{false, false, true, false});
   const WholeLog file = read_mcap(o.log_file);
   const std::uint16_t channel = file.channel("/fulmar/event");
   std::vector<std::string> causes;  // a label of the component, for clients that do not use texts
@@ -309,14 +309,14 @@ std::string refusal(const std::string& flags, const std::string& io = "fcu",
 
 TEST_CASE("in the air 'failed' is a warning, and 'done' is none") {
   for (const std::string end : {"failed", "done"}) {
-    Said said;
+    Printed notes;
     const Graph g = craft(end + ": \"vehicle.status.tick_s > 0.1 s\"\n");
-    Flight flight(g, listening(said));
+    Flight flight(g, listening(notes));
     CHECK(fly_until(flight, 0.2));
-    REQUIRE(said.count("run.end_deferred(" + end + ": , vehicle.status.tick_s > 0.1 s)") == 1);
-    for (std::size_t i = 0; i < said.lines.size(); ++i)
-      if (said.lines[i].find("run.end_deferred(") != std::string::npos)
-        CHECK(said.warnings[i] == (end == "failed"));
+    REQUIRE(notes.count("run.end_deferred(" + end + ": , vehicle.status.tick_s > 0.1 s)") == 1);
+    for (std::size_t i = 0; i < notes.lines.size(); ++i)
+      if (notes.lines[i].find("run.end_deferred(") != std::string::npos)
+        CHECK(notes.warnings[i] == (end == "failed"));
   }
 }
 
@@ -328,10 +328,10 @@ TEST_CASE("a vehicle that needs a command gets the failsafe's, even if none was 
                          "components:\n  craft: {fills: vehicle, use: craft/Demanding}\n"
                          "  law_a: {fills: law, use: craft/Hoarder, params: {fail_at: -1 s}}\n";
   const Graph g = load_mission(file.string());
-  Said said;
-  Flight flight(g, listening(said));
+  Printed notes;
+  Flight flight(g, listening(notes));
   CHECK(fly_until(flight, 0.1));
-  CHECK(said.count("failsafe") == 1);
+  CHECK(notes.count("failsafe") == 1);
   CHECK(obeyed(g, flight));
   CHECK(applied(g, flight) == -0.25);
 }
@@ -339,16 +339,16 @@ TEST_CASE("a vehicle that needs a command gets the failsafe's, even if none was 
 TEST_CASE("a flag of any name protects the aircraft once the mission names it") {
   const Graph g = strange(its_flags, "fcu", its_ports, "done: \"vehicle.state.tick_s > 1 s\"\n");
   std::atomic<int> interrupt{0};
-  Said said;
-  FlightOptions o = listening(said);
+  Printed notes;
+  FlightOptions o = listening(notes);
   o.interrupt = &interrupt;
   Flight flight(g, o);
   CHECK(fly_until(flight, 1.5));  // done, and armed: it continues
-  CHECK(said.count("run.end_deferred(done: , vehicle.state.tick_s > 1 s)") == 1);
+  CHECK(notes.count("run.end_deferred(done: , vehicle.state.tick_s > 1 s)") == 1);
   interrupt = 2;
   CHECK(fly_until(flight, 2));
   CHECK(interrupt == 0);
-  CHECK(said.count("run.signal_refused") == 1);
+  CHECK(notes.count("run.signal_refused") == 1);
   CHECK_THROWS_WITH(swap(flight, "law_a", FULMAR_TEST_PLUGIN_DIR "/craft.so"),
                     "run.swap_not_possible(law_a, run.aircraft_armed)");
   while (flight.step()) {  // it disarms in the air at 3 s
@@ -358,8 +358,8 @@ TEST_CASE("a flag of any name protects the aircraft once the mission names it") 
 
 TEST_CASE("disarmed in the air nothing is swapped, by the flag that the mission names") {
   const Graph g = strange(its_flags, "fcu", its_ports);
-  Said said;
-  Flight flight(g, listening(said));
+  Printed notes;
+  Flight flight(g, listening(notes));
   CHECK(fly_until(flight, 3.5));
   CHECK_THROWS_WITH(swap(flight, "law_a", FULMAR_TEST_PLUGIN_DIR "/craft.so"),
                     "run.swap_not_possible(law_a, run.aircraft_in_air)");
@@ -416,8 +416,8 @@ TEST_CASE(
   mute.set = {{"craft.speak_at", "1e6"}};
   const Graph silent = load_mission(g.source.file, mute);
   std::atomic<int> interrupt{0};
-  Said said;
-  FlightOptions o = listening(said);
+  Printed notes;
+  FlightOptions o = listening(notes);
   o.interrupt = &interrupt;
   Flight flight(silent, o);
   CHECK(fly_until(flight, 1));
@@ -431,8 +431,8 @@ TEST_CASE(
 TEST_CASE("in simulation a loss of control is detected, even without a flag armed") {
   const Graph g = strange(",\n    flags: {armed: state.armed, in_control: gear.obeys}", "sim", its_ports,
                           "control: [law]\n");
-  Said said;
-  Flight flight(g, listening(said));
+  Printed notes;
+  Flight flight(g, listening(notes));
   CHECK(fly_until(flight, 2.9));
   CHECK(hoard(g, flight) == doctest::Approx(2.9025));
   CHECK(fly_until(flight, 3.5));  // it obeys up to 3 s

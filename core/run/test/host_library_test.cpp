@@ -125,8 +125,8 @@ TEST_CASE("Fast DDS is in the process once a flight uses it, and its faults arri
 
   Tap tap(channels());
   test::MockControl control;
-  static std::string said;
-  const DdsHost host{tap, control, [](const std::string& text, Tone) { said += text; }};
+  static std::string printed;
+  const DdsHost host{tap, control, [](const std::string& text, Tone) { printed += text; }};
   DdsOptions options;
   options.on = true;
   options.domain = 233;
@@ -135,7 +135,7 @@ TEST_CASE("Fast DDS is in the process once a flight uses it, and its faults arri
   const auto bridge = library.open(host, options);
   CHECK(bridge->stats().sent == 0);
   CHECK(bridge->stats().imports.empty());
-  CHECK(said.empty());
+  CHECK(printed.empty());
 }
 
 TEST_CASE("the faults of the live view arrive as the host's own") {

@@ -17,8 +17,8 @@ const std::string two_phases =
 fs::path cut_log(const Graph& g, double t_s) {
   const fs::path whole = folder().path / "whole.mcap", cut = folder().path / "cut.mcap.part";
   fs::remove(whole);
-  Said said;
-  FlightOptions o = listening(said);
+  Printed printed;
+  FlightOptions o = listening(printed);
   o.log = true;
   o.log_file = whole;
   Flight flight(g, o);
@@ -84,8 +84,8 @@ TEST_CASE(
           "phases:\n  first: {next: [{to: second, when: \"vehicle.status.tick_s > 1000 s\"}]}\n  second: "
           "{}\n",
           {{"craft.arm_at", std::to_string(arm_at)}});
-      Said said;
-      FlightOptions o = listening(said);
+      Printed printed;
+      FlightOptions o = listening(printed);
       resume.if_armed = !asked;
       o.resume = resume;
       Flight flight(next, o);
@@ -96,9 +96,11 @@ TEST_CASE(
       const bool resumed = asked || arm_at < 1;
       CHECK(flight.phase() == (resumed ? "second" : "first"));
       CHECK(applied(next, flight) == 1);
-      CHECK(said.count("run.resumed(phase second, law_a.heirloom = 1") == (resumed ? 1 : 0));
-      CHECK(said.count("run.not_resumed_on_ground") == (resumed ? 0 : 1));
-      CHECK(said.count("phase_entered(") + said.count("run.resumed(phase ") == (asked ? 2 : resumed ? 3 : 1));
+      CHECK(printed.count("run.resumed(phase second, law_a.heirloom = 1") == (resumed ? 1 : 0));
+      CHECK(printed.count("run.not_resumed_on_ground") == (resumed ? 0 : 1));
+      CHECK(printed.count("phase_entered(") + printed.count("run.resumed(phase ") == (asked     ? 2
+                                                                                      : resumed ? 3
+                                                                                                : 1));
     }
 }
 
@@ -121,8 +123,8 @@ const std::string overlaid_first =
 
 TEST_CASE("a flight that resumes has the overlay of its present phase, not of the first") {
   const Graph g = craft(overlaid_first);
-  Said said;
-  FlightOptions o = listening(said);
+  Printed printed;
+  FlightOptions o = listening(printed);
   o.resume = into_second(0.4);
   Flight flight(g, o);
   CHECK(fly_until(flight, 0.1));
@@ -133,16 +135,16 @@ TEST_CASE("a flight that resumes has the overlay of its present phase, not of th
 TEST_CASE(
     "a parameter of a log that cannot be set any more is reported, and the flight continues without it") {
   const Graph g = craft(overlaid_first);
-  Said said;
-  FlightOptions o = listening(said);
+  Printed printed;
+  FlightOptions o = listening(printed);
   o.resume = into_second(7);
   o.resume->if_armed = true;  // in a tick
   Flight flight(g, o);
   CHECK(fly_until(flight, 1));
   CHECK(flight.phase() == "second");
-  CHECK(said.count("run.phase_entered(") + said.count("run.resumed(phase ") ==
+  CHECK(printed.count("run.phase_entered(") + printed.count("run.resumed(phase ") ==
         3);  // the first, the resumed one, and the second: all in the first tick
-  CHECK(said.count("law_a: run.not_resumed(run.value_out_of_range(law_a, heirloom, 7, ") == 1);
+  CHECK(printed.count("law_a: run.not_resumed(run.value_out_of_range(law_a, heirloom, 7, ") == 1);
   CHECK(applied(g, flight) == doctest::Approx(1).epsilon(0.01));
 }
 
@@ -205,8 +207,8 @@ TEST_CASE("the second in which an aircraft may turn out to fly begins with its v
         << lift_at << " s}}\n  law_a: {fills: law, use: craft/Hoarder}\n"
         << "phases:\n  first: {next: [{to: second, when: \"vehicle.state.tick_s > 1000 s\"}]}\n  second: "
            "{}\n";
-    Said said;
-    FlightOptions o = listening(said);
+    Printed printed;
+    FlightOptions o = listening(printed);
     o.resume = into_second(0.4);
     o.resume->if_armed = true;
     Flight flight(load_mission(file.string()), o);

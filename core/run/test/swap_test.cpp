@@ -232,9 +232,9 @@ TEST_CASE("a child that has died is started again on the ground, and never in th
     const Graph g =
         mission("  one: {fills: law, use: lab/Law, run: process, params: {fault: crashes, fault_at: "s +
                 fault_at + "}}\n" + with_fallback);
-    std::string said;
+    std::string printed;
     FlightOptions o = options(0.3);
-    o.say = [&](const std::string& text, bool) { said += text + "\n"; };
+    o.say = [&](const std::string& text, bool) { printed += text + "\n"; };
     Flight flight(g, o);
     do flight.step();
     while (flight.now_ns() < until_ns);
@@ -245,9 +245,9 @@ TEST_CASE("a child that has died is started again on the ground, and never in th
     never.number[0] = 1e9;
     set_parameter(flight, "one", "u", u);
     set_parameter(flight, "one", "fault_at", never);
-    said.clear();
+    printed.clear();
     reset_guards(flight);
-    const std::string reported = said;
+    const std::string reported = printed;
     const bool on_ground = until_ns < 0;
     enter_phase(flight, "fly");
     for (int i = 0; i < 2; ++i) REQUIRE(flight.step());
@@ -272,15 +272,15 @@ TEST_CASE("after a swap elsewhere a role's filler that is stopped is lost in the
 TEST_CASE("after a swap no component reads zeros where a wire carries the previous tick") {
   Ground ground(
       mission("  ear: {use: lab/Filter, in: {signal: {from: sense.signal, delayed: true}}}\n"s + one_phase));
-  const auto heard = [&] { return value(ground.graph, *ground.flight, "ear", "signal", "x_m"); };
-  const double before = heard();
+  const auto received = [&] { return value(ground.graph, *ground.flight, "ear", "signal", "x_m"); };
+  const double before = received();
   REQUIRE(before > 0);
   swap(*ground.flight, "one", variant("_better"));
   for (int i = 0; i < 3; ++i) {
     REQUIRE(ground.flight->step());
-    CHECK(heard() >= before);
+    CHECK(received() >= before);
   }
-  CHECK(heard() > before);
+  CHECK(received() > before);
 }
 
 TEST_CASE("a second swap does not undo the first one's changes of the mission") {

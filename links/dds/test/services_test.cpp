@@ -118,15 +118,15 @@ TEST_CASE("a change of a parameter is published on /parameter_events") {
   Scene scene;
   scene.open();
   Program events(peer("read", "rt/parameter_events rcl_interfaces::msg::dds_::ParameterEvent_ 1"));
-  std::atomic<bool> heard{false};
+  std::atomic<bool> received{false};
   std::thread changes([&] {
-    for (int i = 0; !heard && i < 400; ++i) {
+    for (int i = 0; !received && i < 400; ++i) {
       scene.control.set_parameter("slc", "roll_kp", "0.7", [](const std::string&) {});
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
   });
   const std::string bytes = events.rest();
-  heard = true;
+  received = true;
   changes.join();
   CHECK(bytes.find("2f66756c6d6172") != std::string::npos);          // "/fulmar"
   CHECK(bytes.find("736c632e726f6c6c5f6b70") != std::string::npos);  // "slc.roll_kp"

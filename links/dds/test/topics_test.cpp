@@ -108,16 +108,16 @@ TEST_CASE(
     CHECK(other.finish() == 0);
   }
   Program usual(peer("read", "rt/nav/state " + mixed_dds + " 1"));
-  std::atomic<bool> heard{false};
+  std::atomic<bool> arrived{false};
   std::thread writer([&] {
-    for (std::int64_t now_ns = 120'000'000'000; !heard; now_ns += 2'000'000'000) {
+    for (std::int64_t now_ns = 120'000'000'000; !arrived; now_ns += 2'000'000'000) {
       m.speed_mps += 1;
       scene.tap.write(0, now_ns, now_ns, bytes_of(m), false);
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
   });
   const std::string fresh = usual.rest();
-  heard = true;
+  arrived = true;
   writer.join();
   CHECK(usual.finish() == 0);
   CHECK(fresh != hex(cdr(mixed_value())) + "\n");
@@ -243,15 +243,17 @@ TEST_CASE("a flood of 20000 samples per second is cut, counted, and the loop's r
 }
 
 TEST_CASE("endpoints that do not match by the rules of DDS are reported once, in a sentence") {
-  std::ostringstream said;
+  std::ostringstream printed;
   const auto usual = spdlog::default_logger();
   spdlog::set_default_logger(
-      std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(said)));
+      std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(printed)));
   spdlog::set_pattern("%v");
   Scene scene;
   scene.options.exports[0].best_effort = true;
   scene.open();
-  const auto reported = [&](const std::string& text) { return said.str().find(text) != std::string::npos; };
+  const auto reported = [&](const std::string& text) {
+    return printed.str().find(text) != std::string::npos;
+  };
   {
     Program strict("timeout 3 " + peer("read", "rt/nav/state " + mixed_dds + " 1"));
     Program other("timeout 3 " +

@@ -13,7 +13,7 @@ using namespace fulmar::core::live::test;
 
 TEST_CASE_FIXTURE(Fixture, "a request is called in JSON and in CDR") {
   CHECK(call_json("/plan/add_leg", R"({"course_rad": 0.5})") == json({{"accepted", true}, {"reason", ""}}));
-  CHECK(control.heard().back() == "request plan.add_leg");
+  CHECK(control.received().back() == "request plan.add_leg");
   CHECK(reinterpret_cast<const Leg*>(control.message().data())->course_rad == 0.5);
   CHECK(call_json("/plan/add_leg", R"({"kind": "orbit"})") ==
         json({{"accepted", false}, {"reason", "no orbits here"}}));
@@ -41,7 +41,7 @@ TEST_CASE_FIXTURE(Fixture,
   CHECK(brackets["reason"].get<std::string>().find(", name, ") != std::string::npos);
   const std::string deep = R"({"legs": )" + std::string(100, '[') + std::string(100, ']') + "}";
   CHECK(call_json("/plan/add_leg", deep)["reason"] == "live.request_too_deep");
-  CHECK(control.heard().empty());
+  CHECK(control.received().empty());
 }
 
 TEST_CASE_FIXTURE(Fixture, "invalid requests are answered, and do not reach the flight") {
@@ -57,7 +57,7 @@ TEST_CASE_FIXTURE(Fixture, "invalid requests are answered, and do not reach the 
     REQUIRE(until([&] { return peer.binaries.size() > before; }));
     CHECK(peer.binaries.back()[20] == 0);  // not accepted
   }
-  CHECK(control.heard().empty());
+  CHECK(control.received().empty());
 }
 
 TEST_CASE_FIXTURE(Fixture, "the services of the host") {
@@ -91,7 +91,7 @@ TEST_CASE_FIXTURE(Fixture, "the services of the host") {
   const std::vector<std::string> expected = {
       "set slc.roll_kp 0.8", "phase hold", "swap slc x.so", "reset", "pause", "pause", "step 40", "resume",
       "speed max",           "restart 11", "restart"};
-  CHECK(control.heard() == expected);
+  CHECK(control.received() == expected);
 
   const json view = call_json("/fulmar/view", "{}");
   CHECK(view["phases"] == json({"hold", "cruise"}));
@@ -121,7 +121,7 @@ TEST_CASE_FIXTURE(Fixture, "the services of the host are called in CDR, too") {
   const std::string header("\0\1\0\0", 4);
   call("/fulmar/swap", "cdr", header + text("slc") + text("law.so"));
   REQUIRE(until([&] { return !peer.binaries.empty(); }));
-  CHECK(control.heard().back() == "swap slc law.so");
+  CHECK(control.received().back() == "swap slc law.so");
   const std::string reason = std::string("mock.vehicle_armed") + '\0';
   CHECK(peer.binaries.back().substr(16) == header + std::string(4, '\0') + le(19) + reason);
   for (const std::string& payload :
@@ -132,7 +132,7 @@ TEST_CASE_FIXTURE(Fixture, "the services of the host are called in CDR, too") {
     REQUIRE(until([&] { return peer.binaries.size() > before; }));
     CHECK(peer.binaries.back()[20] == 0);
   }
-  CHECK(control.heard().size() == 1);
+  CHECK(control.received().size() == 1);
 }
 
 TEST_CASE_FIXTURE(Fixture, "calls of unknown services fail") {
@@ -153,13 +153,13 @@ TEST_CASE_FIXTURE(Fixture, "a client publishes into an imported input, in CDR an
          {{"id", 2}, {"topic", "/plan/edits"}, {"encoding", "json"}, {"schemaName", ""}}}}});
   const Mixed mixed = mixed_value();
   hub.binary(id, "\1" + le(1) + cdr_of(*mixed_type(), mixed));
-  REQUIRE(control.heard().size() == 1);
-  CHECK(control.heard()[0] == "publish plan.edits");
+  REQUIRE(control.received().size() == 1);
+  CHECK(control.received()[0] == "publish plan.edits");
   CHECK(control.message().size() == sizeof mixed);
   CHECK(cdr_of(*mixed_type(), *reinterpret_cast<const Mixed*>(control.message().data())) ==
         cdr_of(*mixed_type(), mixed));
   hub.binary(id, "\1" + le(2) + R"({"armed": true, "speed_mps": 2.5, "mode": "hold"})");
-  REQUIRE(control.heard().size() == 2);
+  REQUIRE(control.received().size() == 2);
   CHECK(reinterpret_cast<const Mixed*>(control.message().data())->speed_mps == 2.5);
   CHECK(reinterpret_cast<const Mixed*>(control.message().data())->mode == 1);
   CHECK(counters.refused == 0);
@@ -172,7 +172,7 @@ TEST_CASE_FIXTURE(Fixture, "a client publishes into an imported input, in CDR an
   hub.binary(id, "\1" + le(1) + cdr_of(*mixed_type(), mixed));
   CHECK(peer.last_status() == "live.channel_not_advertised(1)");
   CHECK(counters.refused == 3);
-  CHECK(control.heard().size() == 2);
+  CHECK(control.received().size() == 2);
 }
 
 TEST_CASE_FIXTURE(Fixture, "only imports of the mission accept client samples") {

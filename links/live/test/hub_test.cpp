@@ -321,7 +321,7 @@ TEST_CASE_FIXTURE(Fixture,
   const std::vector<std::string> expected = {"set slc.roll_kp 0.7", "set slc.wind [1,2.5,0]",
                                              "set slc.note \"20 deg\"", "set slc.law takeoff",
                                              "set slc.on false"};
-  CHECK(control.heard() == expected);
+  CHECK(control.received() == expected);
   const json& reply = *peer.last("parameterValues");
   CHECK(reply["id"] == "s");
   CHECK(reply["parameters"].size() == 5);
@@ -339,13 +339,13 @@ TEST_CASE_FIXTURE(Fixture, "a parameter that cannot be set reports the reason, a
          {{"name", "slc.roll_kp"}}}}});
   REQUIRE(until([&] { return peer.last("parameterValues") != nullptr; }));
   CHECK(peer.last("parameterValues")->at("parameters")[0]["value"] == 0.55);
-  std::vector<std::string> said;
+  std::vector<std::string> notes;
   for (const json& t : peer.texts)
-    if (t["op"] == "status") said.push_back(t["message"]);
-  CHECK(std::find(said.begin(), said.end(), "slc.roll_kp: 9 is outside 0 .. 2 rad/rad") != said.end());
-  CHECK(std::find(said.begin(), said.end(), "roll_kp: live.parameter_name_invalid") != said.end());
-  CHECK(std::find(said.begin(), said.end(), "slc.roll_kp: live.parameter_not_removable") != said.end());
-  CHECK(std::any_of(said.begin(), said.end(), [](const std::string& t) {
+    if (t["op"] == "status") notes.push_back(t["message"]);
+  CHECK(std::find(notes.begin(), notes.end(), "slc.roll_kp: 9 is outside 0 .. 2 rad/rad") != notes.end());
+  CHECK(std::find(notes.begin(), notes.end(), "roll_kp: live.parameter_name_invalid") != notes.end());
+  CHECK(std::find(notes.begin(), notes.end(), "slc.roll_kp: live.parameter_not_removable") != notes.end());
+  CHECK(std::any_of(notes.begin(), notes.end(), [](const std::string& t) {
     return t.find("scl.roll_kp: mock.component_unknown(scl,  [slc] slc, plan)") == 0;
   }));
   CHECK(counters.refused == 0);  // no rule of the protocol was violated
@@ -471,7 +471,7 @@ TEST_CASE_FIXTURE(
     CHECK(peer.closed == bad.code);
     CHECK(counters.refused == ++refused);
   }
-  CHECK(control.heard().empty());
+  CHECK(control.received().empty());
 }
 
 TEST_CASE_FIXTURE(Fixture, "answers for a client that has left are dropped") {

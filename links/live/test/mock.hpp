@@ -116,7 +116,7 @@ class MockControl : public Control {
   }
   std::uint64_t lost_samples() const override { return 0; }
 
-  std::vector<std::string> heard() const {
+  std::vector<std::string> received() const {
     const std::lock_guard lock(mutex_);
     return heard_;
   }

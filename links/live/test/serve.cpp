@@ -36,8 +36,8 @@ int main(int argc, char** argv) try {
     loop.join();
     stats = server.stats();
   }
-  const std::vector<std::string> heard = control.heard();
-  const auto published = std::count(heard.begin(), heard.end(), "publish plan.edits");
+  const std::vector<std::string> received = control.received();
+  const auto published = std::count(received.begin(), received.end(), "publish plan.edits");
   std::cout << nlohmann::json{{"sent", stats.sent},
                               {"dropped", stats.dropped},
                               {"lost", stats.lost},

@@ -31,9 +31,9 @@ struct Project {
 };
 
 std::string output_of(const std::string& command) {
-  const fulmar::test::Said said = fulmar::test::shell(command);
-  CHECK(said.code == 0);
-  return said.out;
+  const fulmar::test::Said printed = fulmar::test::shell(command);
+  CHECK(printed.code == 0);
+  return printed.out;
 }
 
 }  // namespace

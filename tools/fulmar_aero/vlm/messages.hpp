@@ -43,8 +43,6 @@ inline constexpr MessageText camber_count_mismatch{
     {"places", "heights"},
     "camber_x_frac has {places} places and camber_z_frac {heights} heights; the counts must be equal and at "
     "least 2"};
-inline constexpr MessageText chord_missing{"aero.chord_missing",
-                                           "the section has no <Chord>; give a length above 0"};
 inline constexpr MessageText chord_not_positive{
     "aero.chord_not_positive",
     {"found"},
@@ -94,6 +92,8 @@ inline constexpr MessageText cruise_lift_unreachable{
     "These surfaces reach it at no angle within 25 deg{hint}"};
 inline constexpr MessageText duplicate_plane_unsupported{"aero.duplicate_plane_unsupported",
                                                          "YDUPLICATE: only y = 0 is supported"};
+inline constexpr MessageText element_missing{
+    "aero.element_missing", {"parent", "element"}, "<{parent}> has no <{element}>; add it"};
 inline constexpr MessageText element_numbers_invalid{"aero.element_numbers_invalid",
                                                      {"element", "found", "count", "noun"},
                                                      "<{element}>: expected {count}{noun}; found '{found}'"};

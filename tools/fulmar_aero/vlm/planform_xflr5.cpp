@@ -103,7 +103,7 @@ class Xflr5Plane {
   double number(const Element& in, const char* tag, double missing) const {
     const Element* const e = in.find(tag);
     if (!e) {
-      if (std::isnan(missing)) fail(in, "<" + in.tag + "> has no <" + tag + ">");
+      if (std::isnan(missing)) fail(in, aero_messages::element_missing(in.tag, tag));
       return missing;
     }
     return numbers(*e, 1)[0];
@@ -170,7 +170,6 @@ class Xflr5Plane {
       w.z_m = metre_ * at[2] + z;
       w.chord_m = metre_ * number(one, "Chord", std::nan(""));
       w.twist_rad = number(one, "Twist", 0) * degree;
-      if (std::isnan(w.chord_m)) fail(one, aero_messages::chord_missing());
       if (!(w.chord_m > 0)) fail(one, aero_messages::chord_not_positive(w.chord_m));
       w.airfoil = foil(one);
       if (!s.sections.push_back(w)) fail(one, aero_messages::too_many_sections());

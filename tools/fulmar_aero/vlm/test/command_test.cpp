@@ -252,7 +252,7 @@ TEST_CASE("surfaces, masses and units of an XFLR5 file") {
         std::array{"<Symetric>true", "<Symetric>false", "aero.asymmetric_wing_unsupported"},
         std::array{"<Chord>280", "<Chord>x",
                    "plane.xml:9: aero.element_numbers_invalid(Chord, x, 1,  number)"},
-        std::array{"<Chord>280</Chord>", "", "plane.xml:9: aero.chord_missing"},
+        std::array{"<Chord>280</Chord>", "", "plane.xml:9: aero.element_missing(Section, Chord)"},
         std::array{"<Chord>280", "<Chord>-200", "plane.xml:9: aero.chord_not_positive(-0.2)"},
         std::array{"</Plane>", "</Plain>", "</Plain> ends <Plane>"},
         std::array{"<Name>Merlin</Name>", "<has_body>true</has_body>", "aero.plane_body_unsupported"}}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shipped mission with a transmitter that moves by the time of flight: every level, the research scheme,
-// and back, without a step.
+// The shipped mission with a scripted transmitter: every level, the research scheme, and back, without a
+// step.
 #include <doctest/doctest.h>
 #include <unistd.h>
 
@@ -157,7 +157,7 @@ TEST_CASE(
     }
     CHECK(u.step("throttle_frac", t - 0.05, t + 0.3) < 0.03);
   }
-  // taken back: at the end the aircraft is on its path as if nothing had been
+  // control returned: at the end the aircraft is on its path
   CHECK(truth.at("height_m", 138) == doctest::Approx(70).epsilon(0.02));
   CHECK(holds(typed("replay " + log.string()).out, "0 differing bytes"));
 }

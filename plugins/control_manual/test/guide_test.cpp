@@ -161,7 +161,7 @@ TEST_CASE("an axis from the path is the other guide's to the last field, beside 
   bench.params.course.value = Axis::hold;
   bench.retune();
   bench.fly(stick(1));
-  CHECK(bench.out.command.course_rad == 1.1);  // held, whatever the stick says
+  CHECK(bench.out.command.course_rad == 1.1);  // held, for any stick
   CHECK(bench.out.command.lateral == LateralMode::course);
 }
 

@@ -48,7 +48,7 @@ TEST_CASE("a roll rate takes the aileron that holds it against the roll damping,
   Bench bench(Law::rate);
   VehicleState s = level();
   s.rate_radps.x = 0.6;
-  // p is what is asked for: -b/(2V) Clp/Cla p
+  // p is the demand: -b/(2V) Clp/Cla p
   const double steady = 2.08 / 34 * 0.51 / 0.17 * 0.6;
   CHECK(bench.settle(stick(0.4), s).aileron_rad == doctest::Approx(steady));
   s.rate_radps.x = 0.1;

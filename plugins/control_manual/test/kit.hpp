@@ -14,7 +14,7 @@ namespace kit {
 
 inline constexpr double deg = std::numbers::pi / 180;
 
-/// Level at 70 m, to the north, at the Anaconda's cruise speed unless said otherwise.
+/// Level at 70 m, to the north, by default at the Anaconda's cruise speed.
 inline fulmar::VehicleState level(double airspeed = 17) {
   fulmar::VehicleState s;
   s.height_m = 70;

@@ -15,7 +15,7 @@ using manual::Outer;
 
 namespace {
 struct Bench : kit::Hand<Outer> {
-  Bench() { params.blend.value = 0.01; }  // a second of steps is for ever
+  Bench() { params.blend.value = 0.01; }  // a second of steps is many time constants
   AttitudeCommand settle(const Rc& rc, const VehicleState& state = level()) {
     for (int i = 0; i < 100; ++i) fly(rc, state);
     return out.attitude;

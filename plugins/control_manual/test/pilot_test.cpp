@@ -47,7 +47,7 @@ TEST_CASE(
 TEST_CASE("the pilot is there as long as frames come, with their link, and mean something") {
   Bench<Pilot> bench;
   bench.step(0.01);
-  CHECK(bench.out.there_ratio.value == 0);  // nothing yet: not a stick at its end
+  CHECK(bench.out.there_ratio.value == 0);  // no frame yet: not a stick at its end
   CHECK_FALSE(bench.out.rc.link);
   bench.set(bench.in.rc, kit::stick());
   bench.step(0.4);

@@ -15,7 +15,7 @@ using Airspeed = slc::Airspeed;
 namespace {
 constexpr double g = 9.80665, mass = 4, cruise = 18, trim = 0.4, thrust = 20, rho = 1.225, area = 0.5;
 
-/// Lift by angle of attack alone, an elevator that lifts nothing, drag of a parabolic polar; at sea level.
+/// Lift by angle of attack alone, an elevator without lift, drag of a parabolic polar; at sea level.
 Airframe simple() {
   Airframe a;
   a.mass_kg = mass;
@@ -104,7 +104,7 @@ TEST_CASE("a moving airspeed command is fed forward by its acceleration, both wa
       loop.command.airspeed_mps += 0.01 * rate;
       loop.throttle();
     }
-    // what is left of the filter after 1 s of its 0.2 s: exp(-5)
+    // remainder of the filter after 1 s with its 0.2 s: exp(-5)
     CHECK(loop.out.attitude.throttle_frac - trim ==
           Approx(mass * rate * (1 - std::exp(-5)) / thrust).epsilon(0.01));
   }
@@ -149,13 +149,13 @@ TEST_CASE("the throttle moves no faster than it may, and goes on from what was a
   last.attitude = loop.wanted;
   last.attitude.throttle_frac = 0.55;
   loop.activate(last);
-  CHECK(loop.throttle() == Approx(0.55));  // the integral takes it up: nothing to move
+  CHECK(loop.throttle() == Approx(0.55));  // the integral takes the value over: no step
   CHECK(loop.throttle(50) == Approx(0.55));
   last.attitude.throttle_frac = 1;  // more than the integral takes up, 0.2
   loop.activate(last);
   CHECK(loop.throttle() == Approx(0.99));
   CHECK(loop.throttle(100) == Approx(0.6));
-  loop.activate();  // nobody flew: trim, an empty integral
+  loop.activate();  // no law before: trim, an empty integral
   CHECK(loop.throttle() == Approx(trim));
 }
 
@@ -176,7 +176,7 @@ TEST_CASE(
     loop.throttle(50);  // 0.204 rad in all: the pitch is there, the roll has gone over the back
     CHECK(loop.out.attitude.roll_rad == Approx((2 * 3.14159265358979 - 3.0 - 0.204) * side));
     CHECK(loop.out.attitude.pitch_rad == loop.wanted.pitch_rad);
-    loop.activate();  // nobody flew
+    loop.activate();  // no law before
     loop.throttle();
     CHECK(loop.out.attitude.roll_rad == loop.wanted.roll_rad);
   }
@@ -196,7 +196,7 @@ TEST_CASE("pitch is given up for airspeed where the throttle is at its stop, and
   };
   for (const double side : {1.0, -1.0}) {
     CAPTURE(side);
-    CHECK(pitch_off(4 * side, 10, 0) == 0);       // at the stop, but nothing may be given up
+    CHECK(pitch_off(4 * side, 10, 0) == 0);       // saturated, but pitch may not be reduced
     CHECK(pitch_off(4 * side, 0.01, 0.07) == 0);  // far off, and thrust has more to give
     CHECK(pitch_off(0.4 * side, 10, 0.07) == 0);
     CHECK(pitch_off(4 * side, 10, 0.07) == Approx(-0.07 * side));

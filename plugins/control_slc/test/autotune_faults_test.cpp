@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the autotune makes of a surface that is stuck or at its limit, of commands that move, of gains of 0,
-// and of an end in the middle.
+// Behaviour of the autotune with a surface that is stuck or saturated, commands that move, gains of 0, and an
+// early end.
 #include "autotune_flight.hpp"
 
 namespace autotune_test {
@@ -122,7 +122,7 @@ TEST_CASE("gains of 0 are not tuned, and a sentence says so") {
   REQUIRE(f.reported.size() == 3);
   CHECK(f.reported[0] == "control_slc.axis_not_tuned(roll, control_slc.gain_zero)");
 
-  Flight no_kd;  // multiples of nothing in one term are no reason
+  Flight no_kd;  // one gain of 0 does not prevent the tuning
   no_kd.tuner.params.law.roll_kd.value = no_kd.tuner.params.law.roll_ki.value = 0;
   no_kd.fly(5);
   no_kd.tune();

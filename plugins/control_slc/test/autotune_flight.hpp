@@ -27,9 +27,9 @@ struct Flight {
   GuidanceCommand command{
       .course_rad = 0, .height_m = 70, .climb_rate_mps = 0, .airspeed_mps = 17, .roll_feedforward_rad = 0};
   VehicleStatus status;
-  std::function<void(VehicleState&)> seen = [](VehicleState&) {};  ///< what the estimator makes of it
+  std::function<void(VehicleState&)> seen = [](VehicleState&) {};  ///< effect of the estimator
   double aileron_power = 1;
-  std::function<void(Actuators&)> servos = [](Actuators&) {};  ///< what they make of it
+  std::function<void(Actuators&)> servos = [](Actuators&) {};  ///< effect of the servos
   bool has_status = true;                                      ///< the input is wired
   double t = 0, dt = 0.01;
   std::vector<std::string> reported;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The autotune flies the nonlinear Anaconda of sdk/test/flight at 17 m/s: what it keeps, what sends it back,
-// what ends it. bench_autotune judges what it finds by a linear model.
+// The autotune flies the nonlinear Anaconda of sdk/test/flight at 17 m/s: gains kept, gains restored, and
+// reasons for an end. bench_autotune evaluates its results with a linear model.
 #include <cstring>
 #include <limits>
 
@@ -168,7 +168,7 @@ TEST_CASE("what is out of its bounds ends it, with the old gains, no excitation,
     f.status.in_control = true;
     f.fly(1);
     CHECK(as_before(f.report(), 0));
-    CHECK(f.report().stage == Stage::aborted);  // and does not begin anew by itself
+    CHECK(f.report().stage == Stage::aborted);  // and does not restart
     CHECK(f.reported.size() == 1);
     // the surface is the law's alone: it stands still in calm air
     const double before = f.tuner.out.law.actuators.aileron_rad;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shipped outer law until a moment in flight, then a fault: for tests of what a flight loses when its
-// controller goes.
+// The shipped outer law until a time in flight, then a fault: for tests of the loss of a controller.
 #include <chrono>
 #include <csignal>
 #include <cstdlib>

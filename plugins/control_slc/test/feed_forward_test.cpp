@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is fed forward, with the integrals off or before they answer: away from cruise speed and from sea
-// level, with an airframe that has aerodynamics. And what a law forgets when it is activated or rests.
+// Feed-forward, with the integrals off or before they act: away from cruise speed and from sea level, with an
+// airframe that has aerodynamics. Also the state that a law clears when it is activated or at rest.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -231,9 +231,9 @@ TEST_CASE("a climb that is limited is told as saturated though the pitch is not 
 }
 
 namespace {
-/// Of a descent or climb that the limit of 0.6 m/s governs, two minutes on. The aircraft follows its pitch at
-/// once, and what it takes to fly level is another pitch: it comes to `before` while the law learns, and is
-/// `after` from the begin of the descent on.
+/// A descent or climb at the limit of 0.6 m/s, after two minutes. The aircraft follows its pitch at once. The
+/// pitch of level flight changes: it is `before` while the law integrates, and `after` from the begin of the
+/// descent on.
 struct Limited {
   double climb_rate_mps, integral_rad;
 };
@@ -263,15 +263,15 @@ TEST_CASE("what the height loop has learnt does not hold off a limited climb or 
   for (const double sign : {1.0, -1.0}) {
     CAPTURE(sign);
     const double far = sign * 200;
-    // 0.08 rad of bias are 1.2 m/s the other way; half of the demand is what is vouched for
+    // 0.08 rad of bias are 1.2 m/s in the other direction; half of the demand is guaranteed
     CHECK(sign * limited(far, -sign * 0.08, 0).climb_rate_mps > 0.29);
-    // what is true stays learnt, and the climb rate is that demanded
+    // a correct integral stays, and the climb rate is the demanded one
     CHECK(sign * limited(far, -sign * 0.08, -sign * 0.08).climb_rate_mps == Approx(0.6).epsilon(0.02));
     CHECK(sign * limited(far, sign * 0.08, sign * 0.08).climb_rate_mps == Approx(0.6).epsilon(0.02));
-    // what helps stays
+    // an integral that helps stays
     CHECK(sign * limited(far, 0, -sign * 0.01).climb_rate_mps == Approx(0.75).epsilon(0.02));
   }
-  // an engine that does not give the climb teaches nothing; a descent that does not come is flown at last
+  // without the climb of the engine nothing is integrated; a descent without sink is corrected in the end
   CHECK(limited(200, 0, 0.1).integral_rad == 0);
   CHECK(limited(-200, 0, -0.08).climb_rate_mps < -0.29);
   CHECK(limited(-200, 0, -0.5).integral_rad == Approx(-0.1).epsilon(0.02));  // rising air

@@ -229,7 +229,7 @@ TEST_CASE("surfaces at zero in a glide are somebody's command; after nobody the 
     bench.set(bench.in.attitude, AttitudeCommand{0.02, 0.03, 0});
     REQUIRE((somebody ? bench.activate(Inner::Outputs{}) : bench.activate()) == Status::ok);
     REQUIRE(bench.step(0.01) == Status::ok);
-    // after nobody: trim and gain times error, 1.2 and 4.0 times 0.01 rad
+    // without a law before: trim and gain times error, 1.2 and 4.0 times 0.01 rad
     CHECK(std::abs(bench.out.actuators.aileron_rad - (somebody ? 0 : 0.042)) < 1e-3);
     CHECK(std::abs(bench.out.actuators.elevator_rad - (somebody ? 0 : -0.08)) < 1e-3);
     CHECK(bench.out.actuators.throttle_frac == 0);
@@ -239,7 +239,7 @@ TEST_CASE("surfaces at zero in a glide are somebody's command; after nobody the 
 TEST_CASE("deflections stay within the throws and throttle in 0 to 1, for any state and command") {
   Random random(3);
   Bench<Inner> bench;
-  bench.params.quieten.value = false;  // who tumbles like that is taken for an oscillation
+  bench.params.quieten.value = false;  // the detector would take this motion for an oscillation
   for (int i = 0; i < 20000; ++i) {
     VehicleState s = flying(random.uniform(0, 60));
     s.airspeed_valid = random.uniform() < 0.8;
@@ -269,7 +269,7 @@ TEST_CASE("without an attitude the surfaces follow the command's rate alone, and
   s.attitude_valid = false;
   s.roll_rad = 0.6;
   s.pitch_rad = -0.2;
-  s.rate_radps = {1, 1, 1};  // stand-ins: nothing may follow them
+  s.rate_radps = {1, 1, 1};  // invalid values that must have no effect
   const Actuators& u = step(bench, s, {0.2, 0.05, 0.5});
   CHECK(u.aileron_rad == doctest::Approx(0).epsilon(1e-6));
   CHECK(u.elevator_rad == doctest::Approx(0).epsilon(1e-6));
@@ -365,7 +365,7 @@ TEST_CASE("a sideslip that is asked for is held by rudder and aileron, until nob
     const Actuators& u = step(bench, flying(), {}, 1);
     CHECK(u.rudder_rad == doctest::Approx(0.01 + side * 0.2));
     CHECK(u.aileron_rad == doctest::Approx(0.02 + side * 0.075));
-    // Nothing is left of the moments: B&M (4.19), (4.20).
+    // The moments vanish: B&M (4.19), (4.20).
     CHECK(std::abs(0.13 * side * 0.1 - 0.065 * (u.rudder_rad - 0.01)) < 1e-12);
     CHECK(std::abs(-0.12 * side * 0.1 + 0.16 * (u.aileron_rad - 0.02)) < 1e-12);
     step(bench, flying(), {}, 15);
@@ -403,7 +403,7 @@ TEST_CASE("the aileron works against sideslip where it is asked to, and only whi
     s.airspeed_valid = false;                                                          // a stand-in
     CHECK(step(bench, s, {}, 1).aileron_rad == 0);
     s.airspeed_valid = true;
-    s.attitude_valid = false;  // nothing is known of it
+    s.attitude_valid = false;  // no valid attitude
     CHECK(step(bench, s, {}, 1).aileron_rad == 0);
   }
 }

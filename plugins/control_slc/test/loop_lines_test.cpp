@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is measured of a loop whose transfer function is known, and the gains that are chosen from it.
+// Measurement of a loop with a known transfer function, and the gains that are chosen from it.
 #include <doctest/doctest.h>
 
 #include <fulmar/random.hpp>
@@ -17,7 +17,7 @@ namespace {
 constexpr double T = 0.01, degree = std::numbers::pi / 180;
 constexpr double lag = 12, power = 40;  // of the axis: rate = power / (s + lag), held and late by one step
 
-/// An axis of known transfer function under the law, and what is excited and recorded of it.
+/// An axis of known transfer function under the law, with its excitation and record.
 struct Axis {
   AxisGains gains{1.5, 0.4, 0.05};
   double noise = 0;             ///< of the surface, white through a lag of 0.3 s: its deviation, rad
@@ -303,7 +303,7 @@ TEST_CASE("the noise that counts is that of the lines near |L| = 1, or of the hi
   r.loop[7] = 0.05;  // a weak damper
   CHECK(std::abs(noise_of(r) - 0.1) < 1e-12);
   r.loop.fill(50);
-  CHECK(noise_of(r) > 1e6);  // nothing was measured that margins come from
+  CHECK(noise_of(r) > 1e6);  // no line of the margins was measured
 }
 
 }  // namespace loop_lines_test

@@ -79,7 +79,7 @@ TEST_CASE("taken over the throttle is that of the speed asked for, whatever the 
     for (const double airspeed : {13.0, 19.0, 28.0}) {
       Throttle other;
       CHECK(other.begin(airspeed, command) == Approx(first));
-      CHECK(other.again() == Approx(first));  // no acceleration is fed forward: nothing has moved
+      CHECK(other.again() == Approx(first));  // no acceleration is fed forward: the command is unchanged
     }
   }
 }

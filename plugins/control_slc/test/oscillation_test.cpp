@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What counts as an oscillation and what does not, and what the inner loops do about theirs. Flown in
-// core/app/test/quieten_test.cpp.
+// Motions that count as an oscillation and others that do not, and the reaction of the inner loops. In
+// flight: core/app/test/quieten_test.cpp.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -103,7 +103,7 @@ TEST_CASE("swings that die, and those of the command, are none") {
   CHECK(recognised(swing, [](double t) { return sine(0.12, 20, t + 0.1); }) < 0);
   CHECK(recognised(swing, [](double t) { return sine(-0.12, 20, t); }) < 0);
   CHECK(recognised(swing, [](double t) { return sine(0.08, 20, t + 0.1); }) > 0);
-  CHECK(recognised(swing, [](double) { return 5.0; }) > 0);  // a command that stays moves nothing
+  CHECK(recognised(swing, [](double) { return 5.0; }) > 0);  // a constant command moves nothing
 }
 
 TEST_CASE("each oscillation leaves 0.4 of the gain, a tenth is left in the end, until it is restored") {

@@ -42,8 +42,8 @@ const AttitudeCommand& settle(Bench<Outer>& bench, const VehicleState& state, co
   for (int i = 0; i < static_cast<int>(seconds * 100); ++i) bench.step(0.01);
   return bench.out.attitude;
 }
-/// While a pilot flies, the host activates a law before each of its steps with nothing to go on from. The
-/// last is the first that is obeyed.
+/// While a pilot flies, the host activates a law before each of its steps, without a law to continue from.
+/// The last activation is the first with an effect.
 void pilot_flies(Bench<Outer>& bench, const VehicleState& state, const GuidanceCommand& command) {
   bench.set(bench.in.state, state);
   bench.set(bench.in.command, command);
@@ -271,7 +271,7 @@ TEST_CASE("taking over is bumpless from any last command") {
     last.attitude = {random.uniform(-0.7, 0.7), random.uniform(-0.3, 0.3), random.uniform(0, 1)};
     bench.activate(last);
     bench.step(0.01);
-    // Who flew before has stepped in this tick: a second step would be twice as fast.
+    // The law before has stepped in this tick: a second step would double the rate.
     CHECK(bench.out.attitude.roll_rad == last.attitude.roll_rad);
     CHECK(bench.out.attitude.pitch_rad == last.attitude.pitch_rad);
     CHECK(bench.out.attitude.throttle_frac == last.attitude.throttle_frac);
@@ -413,8 +413,8 @@ TEST_CASE("a glide, all zeros, is somebody's command; after nobody a law begins 
     CHECK(std::abs(a.throttle_frac - throttle) <= 0.0201);  // 2 per second
     CHECK(std::abs(a.pitch_rad - pitch) <= 0.0081);         // 0.8 rad/s
     CHECK(std::abs(a.roll_rad - roll) <= 0.0401);           // smoothed towards 0 with 0.1 s
-    // The integral takes up what it may of the difference between the glide and what the law would ask for;
-    // after nobody nothing.
+    // The integral takes over the difference between the glide and the command of the law, within its bounds;
+    // without a law before it stays 0.
     CHECK(std::abs(bench.out.throttle_integral_frac.value - (somebody ? -0.2 : 0)) < 0.004);
     CHECK(std::abs(bench.out.pitch_integral_rad.value - (somebody ? -0.1 : 0)) < 0.001);
   }
@@ -438,12 +438,12 @@ TEST_CASE(
     CHECK(settle(bench, s, c).roll_rad == doctest::Approx(0.785));
     s.roll_rad = 0.6;
     s.airspeed_mps = 5;
-    s.airspeed_valid = false;  // stand-ins: nothing may follow them
+    s.airspeed_valid = false;  // invalid values that must have no effect
     (attitude ? s.height_valid : s.attitude_valid) = false;
     CHECK(settle(bench, s, c, 0.3).roll_rad > 0.785 - 0.3 - 1e-9);
     CHECK(settle(bench, s, c).roll_rad == doctest::Approx(0).epsilon(1e-6));
     CHECK(bench.out.attitude.pitch_rad ==
-          doctest::Approx(0));  // the default airframe has no derivatives to tell a trim from
+          doctest::Approx(0));  // the default airframe has no derivatives for a trim
     CHECK(bench.out.attitude.throttle_frac == doctest::Approx(0.5));
     CHECK(bench.step(0.01) == Status::degraded);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The outer law at the edge of what the wing carries, on the nonlinear aircraft of sdk/test/flight: heavier
-// than said, in turbulence, with little static margin, in an updraft.
+// The outer law near the stall, with the nonlinear aircraft of sdk/test/flight: heavier than in its
+// parameters, in turbulence, with little static margin, in an updraft.
 #include <doctest/doctest.h>
 
 #include <fulmar/testing.hpp>
@@ -15,7 +15,7 @@ using namespace fulmar;
 
 namespace {
 
-/// The laws have `nominal`, what flies is `body`.
+/// The laws have the parameters of `nominal`; `body` is the simulated aircraft.
 struct Flight {
   test::FlightModel model;
   Bench<slc::Outer> outer;
@@ -34,7 +34,7 @@ struct Flight {
     }
   }
 
-  /// What an estimator sees of the air is level: an updraft is in its angle of attack.
+  /// The estimator assumes level air: an updraft changes its angle of attack.
   VehicleState seen() const {
     VehicleState s = model.state();
     const double Va = std::max(s.airspeed_mps, 1.0);

@@ -15,8 +15,7 @@ using namespace fulmar;
 namespace {
 constexpr double deg = std::numbers::pi / 180;
 
-/// Proportional attitude loops with damping about the turn's rates: no more than the outer loops need to be
-/// tried.
+/// Proportional attitude loops with damping about the turn's rates, sufficient for a test of the outer loops.
 Actuators attitude_loops(const VehicleState& s, const AttitudeCommand& c, const Airframe& a) {
   const TurnRates turn = turn_rates(s.roll_rad, s.pitch_rad, s.airspeed_mps);
   const double density = standard_air(s.origin_altitude_m + s.height_m).density_kgm3;

@@ -97,7 +97,7 @@ TEST_CASE("far away the climb and sink limits govern, that of the path included,
       command.climb_rate_mps = path;
       const double rate = side > 0 ? 4 : -3;
       VehicleState s = flying(17);
-      s.climb_rate_mps = rate;  // what is demanded is flown
+      s.climb_rate_mps = rate;  // the demand is met
       const AttitudeCommand u = law.settle(s, command, 20);
       CHECK((u.pitch_rad - trim) * 17 / rate == Approx(1).epsilon(1e-6));
       CHECK(u.throttle_frac == Approx(0.5 + 4.5 * g * rate / (17 * 50)));
@@ -213,7 +213,7 @@ TEST_CASE("whatever it is told, what it says is finite and within its limits, wi
 
 TEST_CASE(
     "what it has learnt does not hold off a limited climb or descent for ever, and what is true stays") {
-  // The aircraft follows its pitch at once; level flight comes to take another pitch while the law learns.
+  // The aircraft follows its pitch at once; level flight needs another pitch while the law integrates.
   const auto climb_rate = [](double side, double before_rad, double after_rad) {
     Flown law(true);
     FlightLimits& limits = law.params.common.airframe.value.limits;
@@ -239,7 +239,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a throttle that has learnt too much does not hold off a limited descent for ever") {
-  // Level at constant speed; what the throttle gives beyond its trim climbs.
+  // Level at constant speed; throttle beyond the trim makes the aircraft climb.
   Flown law(true);
   FlightLimits& limits = law.params.common.airframe.value.limits;
   limits.climb_rate_max_mps = limits.sink_rate_max_mps = 0.6;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the energy laws feed forward in a turn, and what they do not learn below the minimum airspeed.
+// Feed-forward of the energy laws in a turn, and no integration below the minimum airspeed.
 #include <doctest/doctest.h>
 
 #include <cmath>

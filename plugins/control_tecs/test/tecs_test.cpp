@@ -46,8 +46,8 @@ const AttitudeCommand& settle(Bench<Outer>& bench, const VehicleState& state, co
   return bench.out.attitude;
 }
 
-/// While a pilot flies, the host activates a law before each of its steps with nothing to go on from. The
-/// last is the first that is obeyed.
+/// While a pilot flies, the host activates a law before each of its steps, without a law to continue from.
+/// The last activation is the first with an effect.
 void pilot_flies(Bench<Outer>& bench, const VehicleState& state, const GuidanceCommand& command) {
   bench.set(bench.in.state, state);
   bench.set(bench.in.command, command);
@@ -69,7 +69,7 @@ TEST_CASE("throttle is the total energy rate wanted over the power of the engine
   // same error
   CHECK(settle(bench, s, level()).throttle_frac == doctest::Approx(0.5 + 8.7 * 4.5 / (14.5 * 50) * 1.5));
   CHECK(bench.out.acceleration_demand_mps2.value == doctest::Approx(0.6));
-  s.specific_force_mps2.x = 0.6;  // the acceleration wanted is there: feed-forward alone
+  s.specific_force_mps2.x = 0.6;  // the demanded acceleration is reached: feed-forward alone
   CHECK(settle(bench, s, level()).throttle_frac == doctest::Approx(0.5 + 8.7 * 4.5 / (14.5 * 50)));
 }
 
@@ -113,7 +113,7 @@ TEST_CASE(
   const double trim = settle(bench, flying(), level()).pitch_rad;
   VehicleState s = flying();
   s.airspeed_mps = 14;
-  const double all = 1.6 * 0.4 * 1.2 / g;  // nose down by what 1 m/s too slow asks for: of airspeed_gain 1.2
+  const double all = 1.6 * 0.4 * 1.2 / g;  // nose down for 1 m/s too slow, with airspeed_gain 1.2
   const auto share = [&] { return (trim - bench.out.attitude.pitch_rad) / all; };
   settle(bench, s, level(), 0.1);
   CHECK(share() == doctest::Approx(1 - std::exp(-0.1 / 0.5)).epsilon(0.05));
@@ -123,7 +123,7 @@ TEST_CASE(
   settle(bench, flying(), level(), 5);
   bench.activate();
   settle(bench, s, level(), 0.01);
-  bench.activate();  // goes on from the airspeed that there is, not from one of before
+  bench.activate();  // continues from the present airspeed, not from a former one
   settle(bench, s, level(), 0.5);
   CHECK(share() > 0.8);
 }
@@ -326,9 +326,9 @@ TEST_CASE("a glide, all zeros, is somebody's command; after nobody a law begins 
     CHECK(std::abs(a.throttle_frac - throttle) <= 0.0201);  // 2 per second
     CHECK(std::abs(a.pitch_rad - pitch) <= 0.0081);         // 0.8 rad/s
     CHECK(std::abs(a.roll_rad - roll) <= 0.0401);           // smoothed towards 0 with 0.1 s
-    // The integrals take up the difference between the glide and what the law would ask for: of throttle what
-    // they may; of pitch, 0 = k (B_c - B) / (g V) + I with B_c = 0, since no climb is asked for in the tick
-    // of the hand-over, and B = 0.4 V g sin(0.1). After nobody nothing.
+    // The integrals take over the difference between the glide and the command of the law. Throttle: within
+    // its bounds. Pitch: 0 = k (B_c - B) / (g V) + I with B_c = 0, since no climb is demanded in the tick of
+    // the hand-over, and B = 0.4 V g sin(0.1). Without a law before they stay 0.
     const double B = 0.4 * cruise * g * std::sin(0.1);
     const double integral = 0.6 * B / (g * cruise);
     CHECK(std::abs(bench.out.throttle_integral_frac.value - (somebody ? -0.2 : 0)) < 0.004);
@@ -356,11 +356,11 @@ TEST_CASE(
     CHECK(settle(bench, s, c).roll_rad == doctest::Approx(0.785));
     s.roll_rad = 0.6;
     s.airspeed_mps = 5;
-    s.airspeed_valid = false;  // stand-ins: nothing may follow them
+    s.airspeed_valid = false;  // invalid values that must have no effect
     (attitude ? s.height_valid : s.attitude_valid) = false;
     CHECK(settle(bench, s, c).roll_rad == doctest::Approx(0).epsilon(1e-6));
     CHECK(bench.out.attitude.pitch_rad ==
-          doctest::Approx(0));  // the default airframe has no derivatives to tell a trim from
+          doctest::Approx(0));  // the default airframe has no derivatives for a trim
     CHECK(bench.out.attitude.throttle_frac == doctest::Approx(0.5));
     CHECK(bench.step(0.01) == Status::degraded);
     s = flying();
@@ -417,11 +417,11 @@ TEST_CASE("too slow by the whole band the nose goes down for speed, however much
   Bench<Outer> bench;
   configure(bench);
   bench.params.pitch_damping.value = bench.params.pitch_integral.value = 0;
-  bench.params.throttle_damping.value = 0;  // the engine gives what is asked for: nothing is missing
+  bench.params.throttle_damping.value = 0;  // the engine follows: no shortfall
   VehicleState s = flying();
   s.airspeed_mps = 8.5;
   s.height_m = 20;
-  const double V_dot = 0.5 * g * 4 / 8.5;  // half of what the engine can give
+  const double V_dot = 0.5 * g * 4 / 8.5;  // half of the engine's limit
   CHECK(settle(bench, s, level()).pitch_rad / (-V_dot / g) == doctest::Approx(1));
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What may be at the other end of a serial port, in real time: a flight controller, a satellite receiver,
-// noise, silence.
+// Possible devices on a serial port, in real time: a flight controller, a satellite receiver, noise, silence.
 #pragma once
 #include <time.h>
 

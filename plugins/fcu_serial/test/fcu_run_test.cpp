@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `fulmar run --io fcu` and what may be at the other end.
+// `fulmar run --io fcu` with different devices.
 #include <doctest/doctest.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The vehicle on the software flight controller, in virtual time; and what it has published and told so far.
+// The vehicle with the software flight controller, in virtual time, and its messages and reports so far.
 #pragma once
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What can be wrong with a device, each with its sentence, and what an opened one is like.
+// Faults of a device, each with its message, and the properties of an open one.
 #include "plugins/fcu_serial/link/port.hpp"
 
 #include <arpa/inet.h>

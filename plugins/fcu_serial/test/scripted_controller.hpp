@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A controller by hand: a test is the controller and the loop in turn, and the link has its thread.
+// A scripted controller: a test acts as controller and loop in turn, and the link has its thread.
 #pragma once
 #include <array>
 #include <cstdint>

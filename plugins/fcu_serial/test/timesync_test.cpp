@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The controller's clock against a simulated one: drift, jitter, garbage, reboots. All times are simulated,
-// none are of the wall.
+// The controller's clock against a simulated one: drift, jitter, garbage, reboots. All times are simulated.
 #include "plugins/fcu_serial/link/timesync.hpp"
 
 #include <doctest/doctest.h>

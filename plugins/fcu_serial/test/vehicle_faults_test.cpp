@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The vehicle against the software flight controller, in virtual time: what goes wrong.
+// The vehicle with the software flight controller, in virtual time: faults.
 #include "flying.hpp"
 
 namespace vehicle_faults_test {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// With which set-up of the controller was it flown? Its parameters are published, each when it is news.
+// The record of the controller's set-up: its parameters are published, each at its first report and at a
+// change.
 #include <bit>
 #include <cstdlib>
 

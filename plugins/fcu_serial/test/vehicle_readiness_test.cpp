@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether commands go out: after gaps of the link, without a fix, without an attitude; and what the pilot is
-// told.
+// Decision to send commands: after gaps of the link, without a fix, without an attitude; and the reports to
+// the pilot.
 #include "flying.hpp"
 
 namespace vehicle_readiness_test {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parts of the vehicle by themselves: each limit of a sensor on both sides, each axis on its own, times
-// to the nanosecond, and what a second connection begins with.
+// The parts of the vehicle separately: each limit of a sensor on both sides, each axis, times to the
+// nanosecond, and the initial state of a second connection.
 #include <doctest/doctest.h>
 
 #include <bit>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is told is true: after a gap of the link, on a bad line, after a stop of the computer, in a hand-over
-// that is refused, and when something comes and goes.
+// Correct reports: after a gap of the link, on a bad line, after a pause of the computer, in a rejected
+// hand-over, and for an intermittent fault.
 #include "flying.hpp"
 
 namespace vehicle_words_test {

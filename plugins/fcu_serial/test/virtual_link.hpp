@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A link to a software flight controller in virtual time: what Link does, without a device, a thread or a
-// clock.
+// A link to a software flight controller in virtual time: the functions of Link without a device, a thread or
+// a clock.
 #pragma once
 #include <deque>
 #include <functional>

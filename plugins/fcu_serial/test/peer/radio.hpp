@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pilot's radio and who of pilot and computer has which command, as ROSflight 2.0 decides it: at frames
-// of the radio only.
+// The pilot's radio, and the source of each command, pilot or computer, as selected by ROSflight 2.0: at
+// frames of the radio only.
 #pragma once
 #include <array>
 #include <cmath>

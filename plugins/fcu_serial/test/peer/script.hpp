@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the pilot and the hardware do in a flight against the peer. Seconds from the first command of the host
-// on.
+// Script of the pilot and the hardware in a flight with the peer. Seconds since the first command of the
+// host.
 #pragma once
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What ROSflight 2.0 makes of its sensors: biases, calibrations, scaling, and the complementary filter behind
+// Sensor processing of ROSflight 2.0: biases, calibrations, scaling, and the complementary filter of
 // ATTITUDE_QUATERNION.
 #pragma once
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A pipe of joystick records, against what linux/joystick.h says of them.
+// A pipe of joystick records, against the definitions of linux/joystick.h.
 #include "plugins/joystick/joystick.hpp"
 
 #include <doctest/doctest.h>

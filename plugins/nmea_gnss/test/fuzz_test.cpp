@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mutated sentences: whatever comes, a sample that goes out keeps the promises of its message.
+// Mutated sentences: for any input, a published sample satisfies the rules of its message.
 #include <doctest/doctest.h>
 
 #include <cmath>

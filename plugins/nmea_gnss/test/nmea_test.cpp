@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sentences against the worked examples of public descriptions (protocol manuals of u-blox and Trimble; the
-// usual Munich example), and against numbers computed by hand from them.
+// Sentences against the examples of public descriptions (protocol manuals of u-blox and Trimble; the usual
+// Munich example), and against numbers computed by hand from them.
 #include "plugins/nmea_gnss/nmea.hpp"
 
 #include <doctest/doctest.h>

@@ -183,9 +183,8 @@ inline Status VectorField::step(const Tick& tick, const Inputs& in, const Params
   if (waits_) report(path_messages::position_back.c_str(), Severity::info, tick, out);
   waits_ = false;
   const double Vg = state.ground_speed_mps, chi = state.course_rad;
-  const double k =
-      // the same time constant at any speed
-      p.field.reference_speed / std::max(Vg, 0.3 * p.field.reference_speed);
+  // The same time constant at any speed.
+  const double k = p.field.reference_speed / std::max(Vg, 0.3 * p.field.reference_speed);
   const Aim aim = path.is_curve                 ? at_curve(path, state, p.field, k)
                   : path.kind == PathKind::line ? at_line(path, state, p.field, k)
                                                 : at_orbit(path, state, p.field, k);

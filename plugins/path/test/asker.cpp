@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// For a test: edits the plan in flight and goes by what it is answered. At the first waypoint a group of
-// three and an edit that is wrong; then it takes away what was added, by the id that it was told.
+// For a test: edits the plan in flight and uses the answers. At the first waypoint a group of three and an
+// invalid edit; then it removes the added ones, by their reported ids.
 #include <fulmar/msg/plan_edit.hpp>
 #include <fulmar/msg/progress.hpp>
 #include <fulmar/plugin.hpp>

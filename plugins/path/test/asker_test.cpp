@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A component that edits the plan in flight is answered, in the loop and in a process of its own, and its
+// A component that edits the plan in flight gets its answers, in the loop and in a separate process, and its
 // flight replays byte for byte.
 #include <doctest/doctest.h>
 #include <sys/wait.h>

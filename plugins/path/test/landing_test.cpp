@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The stages of a landing: where it turns onto the final approach, how it follows the slope, sinks in the
-// flare, goes around, and what it takes for a touch-down. Flown: core/app/test/landing_test.cpp.
+// The stages of a landing: turn onto the final approach, slope, sink in the flare, go-around, and conditions
+// of a touch-down. In flight: core/app/test/landing_test.cpp.
 #include <doctest/doctest.h>
 
 #include <cmath>

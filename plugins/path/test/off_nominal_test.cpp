@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is done a second time, and what stands off the level and off the symmetrical: exact geometry.
+// Repeated actions, and geometry that is neither level nor symmetrical: exact values.
 #include <doctest/doctest.h>
 
 #include "flight.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the planner answers: results of edits, groups that take effect as a whole, waypoints by their ids, and
+// Answers of the planner: results of edits, groups that take effect as a whole, waypoints by their ids, and
 // settings of the plan.
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The planner: what a file may say, edits and their refusals, geodetic waypoints.
+// The planner: contents of a file, edits and rejections, geodetic waypoints.
 #define FULMAR_COUNT_ALLOCATIONS
 #include "plugins/path/planner.hpp"
 

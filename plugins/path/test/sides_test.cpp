@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What holds to the right holds to the left, and an edit at the item that is jumped to.
+// Mirror images: results to the right and to the left, and an edit at the item of a jump.
 #include <doctest/doctest.h>
 
 #include <algorithm>

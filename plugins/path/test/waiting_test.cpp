@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Circles to both sides, where it is and round a point, and a height that is gone to by its rate.
+// Circles to both sides, at the present place and round a point, and a change of height at a given rate.
 #include <doctest/doctest.h>
 
 #include <cmath>

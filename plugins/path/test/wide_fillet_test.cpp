@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fillets that the wind makes too tight: how wide they become, when, and what it brings.
+// Fillets that the wind makes too tight: their wider radius, its time, and its benefit.
 #include "plugins/path/wide_fillet.hpp"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Goals and twists as a node of ROS sends them.
+// Goals and twists in the form in which a node of ROS sends them.
 #include "plugins/ros_bridge/commands.hpp"
 
 #include <doctest/doctest.h>

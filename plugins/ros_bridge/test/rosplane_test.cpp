@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ROSplane's messages, out and in, against what its users expect of each field.
+// ROSplane's messages, out and in, against the conventions of each field.
 #include <doctest/doctest.h>
 
 #include "fulmar/flight/math/attitude.hpp"

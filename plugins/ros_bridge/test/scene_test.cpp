@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What viewers are given to draw: against lengths, radii and places on the ellipsoid that have closed forms.
+// Data for viewers, against lengths, radii and places on the ellipsoid with closed forms.
 #include "plugins/ros_bridge/scene.hpp"
 
 #include <doctest/doctest.h>

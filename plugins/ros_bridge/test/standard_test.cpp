@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The conversions against attitudes and vectors that can be said in words, and against rotation matrices
-// written down by hand.
+// The conversions against attitudes and vectors with an evident result, and against rotation matrices written
+// by hand.
 #define FULMAR_COUNT_ALLOCATIONS
 #include "plugins/ros_bridge/standard.hpp"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What fails of the aircraft and its air is reported once, by its own name; nothing of a flight in order.
+// A failure of the aircraft or its air data is reported once, under its name; a flight without failures has
+// no report.
 #include "plugins/safety/aircraft_watch.hpp"
 
 #include <string>
@@ -210,7 +211,7 @@ TEST_CASE("wind above 0.6 of the cruise airspeed is reported from every side") {
     above.fly(12);
     CHECK(below.reported.empty());
     CHECK(above.count(Severity::warning, "safety.wind_excessive(") == 1);
-    above.state.wind_valid = false;  // not known any more: neither more nor less
+    above.state.wind_valid = false;  // invalid: neither above nor below
     above.state.wind_mps = {};
     above.fly(60);
     CHECK(above.reported.size() == 1);

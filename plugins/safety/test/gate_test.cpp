@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What speaks against a take-off.
+// Conditions that prevent a take-off.
 #include "plugins/safety/gate.hpp"
 
 #include "watch.hpp"
@@ -17,7 +17,7 @@ unsigned causes(const NotReady& n) {
          n.height + n.motor;
 }
 
-/// What is not ready after 8 s with one thing wrong, and nothing else is.
+/// Checks that after 8 s with one fault its condition is missing, and no other one.
 void refuses(bool NotReady::*cause, const char* words, const std::function<void(Stands&)>& spoil) {
   Stands w;
   w.fence();
@@ -112,7 +112,7 @@ TEST_CASE("tail wind is found in the take-off run: less airspeed than ground spe
     }
     CHECK(w.out.safety.not_ready.wind == (tail > 9.35));
     w.state.ground_speed_mps = w.state.velocity_mps.north = w.state.airspeed_mps =
-        0;  // standing, the tube shows nothing of it
+        0;  // standing, the pitot does not show it
     CHECK(w.fly(30).not_ready.wind == (tail > 9.35));
     CHECK(w.reported_of("safety.not_ready(safety.tail_wind)") == (tail > 9.35));
     w.status.in_control = false;
@@ -148,7 +148,7 @@ TEST_CASE("a motor that does not move the aircraft at open throttle is not ready
   rolls.fly(1);
   rolls.state.ground_speed_mps = rolls.state.velocity_mps.north = 2;
   CHECK(rolls.fly(10).ready);
-  Stands pilot;  // whose throttle it is not
+  Stands pilot;  // the throttle is not the pilot's
   pilot.actuators.throttle_frac = 1;
   pilot.status.in_control = false;
   CHECK(pilot.fly(10).ready);

@@ -109,7 +109,7 @@ TEST_CASE(
     CHECK(law.out.flare_ratio.value == 0);
     const double steady = law.out.attitude.pitch_rad;
     law.state.height_m = ground + 4;
-    CHECK(std::abs(law.fly().pitch_rad - steady) < 0.02);  // it begins with the sink that there is
+    CHECK(std::abs(law.fly().pitch_rad - steady) < 0.02);  // begins with the present sink
     CHECK(law.out.flare_ratio.value == 1);
     const double begun = law.out.attitude.pitch_rad;
     law.state.height_m = ground + 1;  // lower, as fast: more
@@ -118,7 +118,7 @@ TEST_CASE(
     law.fly();
     CHECK(law.out.flare_ratio.value == 0);
   }
-  Law deaf;  // no guide that says it: the parameter
+  Law deaf;  // without a guide: the parameter
   deaf.params.ground.value = 66;
   deaf.fly(0.1);
   CHECK(deaf.out.flare_ratio.value == 1);

@@ -275,7 +275,7 @@ TEST_CASE("the same push with power far from any known ground is none") {
   runway.sink_to(40, 1);
   runway.touch();
   CHECK(runway.go(0.3).contact == Contact::ground);
-  Craft left;  // a landing that is over says nothing
+  Craft left;  // a landing that has ended is not used
   left.take_off(60);
   left.landing.height_m = 1;
   left.has_landing = true;
@@ -358,7 +358,7 @@ TEST_CASE("after a landing the throttle is locked, whatever the estimate says, u
   CHECK(c.go(5).throttle_locked);
   CHECK(c.out.state.contact == Contact::ground);
   c.status.override = true;
-  CHECK(c.go(1).throttle_locked);  // he has it now; what counts is what comes after
+  CHECK(c.go(1).throttle_locked);  // the pilot has control now; only later changes count
   c.status.override = false;
   CHECK_FALSE(c.go(1).throttle_locked);
   CHECK_FALSE(c.go(10).throttle_locked);  // one landing locks once

@@ -216,7 +216,7 @@ TEST_CASE(
     CHECK(w.distance() < 190);  // the circle that 23 m/s over the ground need at a bank of 0.35 rad: 142 m
     w.state.position_std_m = {51, 20, 2};
     CHECK(w.look().lateral == LateralMode::acceleration);
-    w.state.position_std_m = {49, 20, 2};  // who circles does not go on for a second
+    w.state.position_std_m = {49, 20, 2};  // an aircraft on a circle does not continue for a second
     CHECK(w.look().lateral == LateralMode::acceleration);
     w.state.position_valid = true;
     CHECK(w.look().lateral == LateralMode::course);
@@ -244,7 +244,7 @@ TEST_CASE("in more wind than its largest airspeed it turns the nose into the win
   w.look();
   CHECK(w.out.command.airspeed_mps == fulmar::test::anaconda().limits.airspeed_max_mps);
   CHECK(w.out.command.lateral == LateralMode::acceleration);
-  for (double yaw = -3.1; yaw < 3.1; yaw += 0.1) {  // whatever the course over the ground is
+  for (double yaw = -3.1; yaw < 3.1; yaw += 0.1) {  // for any course over the ground
     w.state.yaw_rad = yaw;
     const double a = w.look().lateral_acceleration_mps2, off = angle_difference(0.5 * std::numbers::pi, yaw);
     if (std::abs(off) > 0.05) CHECK(a * off > 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whose commands they were, what a weak motor still flies, how long a circle without a position may last.
+// Source of the commands, flight with a weak motor, and largest time of a circle without a position.
 #include "watch.hpp"
 
 namespace in_flight_test {
@@ -26,7 +26,7 @@ TEST_CASE("commands that did not move the aircraft say nothing of its motor") {
   descends_unobeyed(w, 30);
   CHECK_FALSE(w.out.safety.engine_failed);
   w.state.climb_rate_mps = 0;
-  CHECK_FALSE(w.fly(10).engine_failed);  // nor what the pilot flew, once he has handed back
+  CHECK_FALSE(w.fly(10).engine_failed);  // nor the pilot's commands, after the hand-back
   CHECK(w.reported.find("flight.engine_") == std::string::npos);
 }
 
@@ -35,7 +35,7 @@ TEST_CASE("an alarm of the motor ends with a hand-over, and comes again when the
   w.fly(3);
   w.state.climb_rate_mps = -7.1;
   CHECK(w.raised_after(&SafetyState::engine_failed) > 0);
-  w.actuators.throttle_frac = 0;  // shows nothing
+  w.actuators.throttle_frac = 0;  // gives no evidence
   CHECK(w.fly(30).engine_failed);
   descends_unobeyed(w, 1);
   CHECK_FALSE(w.fly(1).engine_failed);
@@ -110,18 +110,18 @@ TEST_CASE("the circle without a position ends when drift and doubt reach the fen
   Watch still;
   waits(still, 0, -1000, 0);
   CHECK(still.out.safety.waiting_s == doctest::Approx(120).epsilon(0.01));
-  // 1000 m to the north: 25 s at 2 m/s of doubt end the reckoning at 50 m; then 8 m/s of wind, and the way
-  // down.
+  // 1000 m to the north: with 2 m/s of growth the standard deviation ends dead reckoning at 50 m after 25 s;
+  // then 8 m/s of wind, and the descent.
   Watch w;
   waits(w, 8, -1000, 2);
   const Airframe a = test::anaconda();
   const double rho = standard_air(test::FlightModel::field_m + 70).density_kgm3;
   const double down_s = 70 / sink_rate(a, 1.2 * a.limits.airspeed_min_mps, 0.26, rho);
   const double drift_s =
-      (1000 - 15 - 2 * 50 - 8 * down_s) / (8 + 2);  // the doubt grows by 1 m/s, counted twice
+      (1000 - 15 - 2 * 50 - 8 * down_s) / (8 + 2);  // the standard deviation grows by 1 m/s, counted twice
   CHECK(w.out.safety.waiting_s == doctest::Approx(24 - 3 + drift_s).epsilon(0.05));
   CHECK(w.reported.find("safety.descends_near_fence(") != std::string::npos);
-  Watch none;  // without a fence there is no bound but the time
+  Watch none;  // without a fence only the time is limited
   none.state.wind_mps = {12, 0, 0};
   none.fly(20);
   none.state.position_valid = false;

@@ -13,7 +13,7 @@ namespace kit {
 
 inline constexpr double deg = std::numbers::pi / 180;
 
-/// Level at 70 m through still air, at the Anaconda's cruise speed unless said otherwise.
+/// Level at 70 m through still air, by default at the Anaconda's cruise speed.
 inline fulmar::VehicleState level(double north_m = 0, double east_m = 0, double course_rad = 0,
                                   double airspeed_mps = 17) {
   fulmar::VehicleState s;

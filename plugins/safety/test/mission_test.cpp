@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shipped mission, and what is refused of it by file and line.
+// The shipped mission, and rejected variants with file and line.
 #include <doctest/doctest.h>
 #include <unistd.h>
 

@@ -113,7 +113,7 @@ TEST_CASE("the pilot is given the answer that he asks for, in the air, as long a
     CHECK(w.fly(0.5).answer == SafetyAnswer::none);  // not yet in the air
     CHECK(w.fly(3).answer == asked);
     w.state.attitude_valid = false;
-    CHECK(w.fly(3).answer == SafetyAnswer::level);  // what is wrong comes first
+    CHECK(w.fly(3).answer == SafetyAnswer::level);  // the failure has priority
     w.state.attitude_valid = true;
     CHECK(w.fly(5).answer == asked);
     w.status.on_ground = true;
@@ -179,14 +179,14 @@ TEST_CASE("the radio is lost when it was heard, or has to be there") {
   w.has_rc = true;
   w.rc.link = true;
   w.fly(3);
-  w.has_rc = false;  // 1 s of time-out, 2 s until it is said
+  w.has_rc = false;  // 1 s of time-out, 2 s until the report
   CHECK(w.raised_after(&SafetyState::radio_lost) == doctest::Approx(3).epsilon(0.02));
   CHECK(w.out.safety.answer == SafetyAnswer::home);
   CHECK(w.fly(121).answer == SafetyAnswer::land);
   w.has_rc = true;
   CHECK_FALSE(w.fly(3).radio_lost);
   CHECK(w.out.safety.answer == SafetyAnswer::none);
-  Watch linkless;  // frames that say that nobody is there
+  Watch linkless;  // frames without a link
   linkless.has_rc = true;
   linkless.rc.link = true;
   linkless.fly(3);
@@ -258,7 +258,7 @@ TEST_CASE("the motor: the trim's throttle holds level flight, and no motor sinks
   CHECK(after < 4);
   CHECK(w.out.safety.answer == SafetyAnswer::glide);
   CHECK(w.reported.find("safety.alarm(flight.engine_failed, safety.glides, ") != std::string::npos);
-  w.actuators.throttle_frac = 0;  // nothing is demanded: nothing is learnt
+  w.actuators.throttle_frac = 0;  // no demand: no evidence
   CHECK(w.fly(30).engine_failed);
   w.actuators.throttle_frac = 0.57;
   w.state.climb_rate_mps = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What happens a second time, and the wind that moves the best glide off its bound.
+// A second run of each component, and the wind that moves the best glide off its bound.
 #include "kit.hpp"
 #include "plugins/safety/glide.hpp"
 #include "plugins/safety/home.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each sensor that fails in flight is reported once, and its return; nothing on the ground, nothing of a
-// flight in order.
+// Each sensor that fails in flight is reported once, and its return; no report on the ground or without a
+// failure.
 #include "plugins/safety/sensor_watch.hpp"
 
 #include <unistd.h>

@@ -152,13 +152,13 @@ TEST_CASE("without demand, below the stall and without an airspeed the motor is 
     for (int k = 0; k < 500; ++k) motor.step(s, t.a, throttle, 1, e, dt);
     return motor.ratio();
   };
-  CHECK(ratio(t.state(0.4, true), 0) == 1);  // nothing is demanded
+  CHECK(ratio(t.state(0.4, true), 0) == 1);  // no demand
   VehicleState slow = t.state(0.4, true);
   slow.airspeed_mps = 0.69 * t.a.limits.airspeed_min_mps;
   CHECK(ratio(slow, t.throttle) == 1);
   slow.airspeed_mps = 0.71 * t.a.limits.airspeed_min_mps;
   CHECK(ratio(slow, t.throttle) != 1);
-  VehicleState blind = t.state(0.4, true);  // no tube: the air velocity, its climb as well
+  VehicleState blind = t.state(0.4, true);  // without a pitot: the air velocity and its climb are invalid
   blind.airspeed_valid = false;
   blind.velocity_mps = {3, 17, 5};
   blind.wind_mps = {-5, 5, 0};
@@ -187,7 +187,7 @@ TEST_CASE("a flag rises and falls after its delays, and what is neither bad nor 
   for (int again = 0; again < 2; ++again) {
     CHECK(std::abs(steps(true, false) - 15) <= 1);
     for (int k = 0; k < 20; ++k) a.step(false, true, 1.5, 3, 0.1);
-    a.step(false, false, 1.5, 3, 0.1);  // it has to hold
+    a.step(false, false, 1.5, 3, 0.1);  // the condition must hold for a time
     CHECK(std::abs(steps(false, true) - 30) <= 1);
     for (int k = 0; k < 10; ++k) a.step(true, false, 1.5, 3, 0.1);
     a.step(false, false, 1.5, 3, 0.1);
@@ -259,7 +259,7 @@ TEST_CASE("a reckoned position is the state's until it is too unsure, then it dr
     CHECK(r.north_m() == Approx(120 + 4 * 10));
     CHECK(r.east_m() == Approx(-50 - 3 * 10));
     CHECK(r.std_m() == Approx(30 + 10));
-    s.position_std_m = {10, 10, 0};  // it does not come back by itself
+    s.position_std_m = {10, 10, 0};  // it does not return without a valid one
     r.step(s, {4, -3, 0}, 50, dt);
     CHECK(r.drifts());
   }

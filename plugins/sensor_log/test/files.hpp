@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small bags and ULogs, written here alone: what the readers understand of them is compared with the numbers
-// that went in, and other readers are asked as well (core/tap/test/node/recording_test.mjs).
+// Small bags and ULogs, written only here. The output of the readers is compared with the original numbers,
+// and other readers are compared as well (core/tap/test/node/recording_test.mjs).
 #pragma once
 #include <zstd.h>
 

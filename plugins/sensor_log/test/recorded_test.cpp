@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What of the files reaches the autopilot, when, and in which units. Expected values are worked out by hand,
-// from the definitions of the units and the standard atmosphere's tables (ISO 2533).
+// Samples of the files in the autopilot: content, time, and units. Expected values are computed by hand, from
+// the definitions of the units and the standard atmosphere's tables (ISO 2533).
 #define FULMAR_COUNT_ALLOCATIONS
 #include <fulmar/testing.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small recordings of the tests' own, and what the vehicle makes of them.
+// Small recordings of the tests, and the output of the vehicle for them.
 #pragma once
 #include <doctest/doctest.h>
 #include <unistd.h>

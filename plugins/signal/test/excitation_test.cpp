@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The three components: what they add, when they stop, and that they are not there otherwise.
+// The three components: the added signal, its end, and unchanged commands otherwise.
 #define FULMAR_COUNT_ALLOCATIONS
 #include <cstring>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shipped mission: every signal is flown, what comes out of `fulmar response`, and what takes one away.
+// The shipped mission: every signal is flown, the output of `fulmar response`, and the reasons of an abort.
 #include <unistd.h>
 
 #include <filesystem>

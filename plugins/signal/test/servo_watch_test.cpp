@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a servo cannot follow is reported: before the signal begins, and while it flies.
+// A command that a servo cannot follow is reported: before the signal begins, and during it.
 #include "plugins/signal/servo_watch.hpp"
 
 #include "kit.hpp"

@@ -81,7 +81,7 @@ TEST_CASE("the aircraft's servo moves a latency later") {
     return b.component().plant().deflections().aileron;
   };
   CHECK(deflection_after(0, 12) > 0.05);
-  CHECK(std::abs(deflection_after(0.05, 12)) < 0.01);  // nothing has come yet
+  CHECK(std::abs(deflection_after(0.05, 12)) < 0.01);  // no command has arrived yet
   CHECK(deflection_after(0.05, 12 + 20) == Approx(deflection_after(0, 12)).epsilon(1e-3).scale(0));
 }
 

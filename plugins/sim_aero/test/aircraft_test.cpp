@@ -510,7 +510,7 @@ TEST_CASE("truth as navigation state keeps the stamp and claims small deviations
   CHECK(nav.out.state.value.airspeed_std_mps < 0.1);
   CHECK(nav.out.state.valid_at_ns == 0);
   nav.step(0.01);
-  CHECK_FALSE(nav.out.state.written);  // nothing new
+  CHECK_FALSE(nav.out.state.written);  // no new sample
 }
 
 TEST_CASE("it is disarmed as it is armed: by a request") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Allan deviations of what the simulated inertial sensors say at rest.
+// Allan deviations of the simulated inertial sensors at rest.
 #pragma once
 #include <array>
 #include <cmath>

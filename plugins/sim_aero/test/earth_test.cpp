@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Earth, the day and the wind's profile, by what sensors and truth say.
+// The Earth, the deviation from the standard atmosphere and the wind profile, by sensors and truth.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -35,7 +35,7 @@ std::unique_ptr<Bench<Aircraft>> bench(EarthModel model, double lat_deg = 40.246
   return b;
 }
 
-/// What is said of a bench after some seconds of standing or of being carried.
+/// Sensors and truth of a bench after some seconds of standing or of being carried.
 struct Said {
   Imu imu;
   Gnss gnss;
@@ -130,7 +130,7 @@ TEST_CASE("a flight on the turning Earth drifts to the right in the north, to th
       }
       const Vector3d right(-std::sin(heading), std::cos(heading), 0);
       const double drift = (end[1] - end[0]).dot(right), coriolis = 2 * omega * 17 * std::sin(lat * degree);
-      // the fin resists: less than the half of a t^2 of a body that nothing holds, but to that side
+      // The fin resists: less than half of a t^2 of a free body, but to that side.
       CHECK(drift / (0.5 * coriolis * 9) > 0.2);
       CHECK(drift / (0.5 * coriolis * 9) < 1.05);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Faults that are requested: what is refused, how long they hold, and who wins.
+// Requested faults: rejections, durations, and priorities.
 #include "fulmar/msg/fault_request.hpp"
 
 #include <doctest/doctest.h>
@@ -70,7 +70,7 @@ TEST_CASE("a size, a ramp or a time out of range is refused with the range") {
   CHECK(ask(*b, {FaultTarget::icing, FaultKind::growing}) == "size: sim_aero.icing_rate_missing");
   CHECK(ask(*b, {baro, wrong, 100, -1}) == "ramp: sim_aero.fault_ramp_out_of_range");
   CHECK(ask(*b, {baro, wrong, 100, 0, nan}) == "for: sim_aero.fault_time_out_of_range");
-  CHECK(std::abs(off(*b)) < 1e-6);  // what was refused has changed nothing
+  CHECK(std::abs(off(*b)) < 1e-6);  // a rejected request has no effect
 }
 
 TEST_CASE("a request has its size, or that of the parameters") {

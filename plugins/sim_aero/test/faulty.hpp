@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An aircraft whose faults are set by name, and what its sensors say, for the tests of faults.
+// An aircraft whose faults are set by name, and its sensor outputs, for the tests of faults.
 #pragma once
 #include <doctest/doctest.h>
 
@@ -52,7 +52,7 @@ inline bool spoke(const Aircraft::Outputs& out, FaultTarget target) {
   }
 }
 
-/// What it said; the position from the default origin, a scalar in x.
+/// Output of the sensor; the position from the default origin, a scalar in x.
 inline Eigen::Vector3d said(const Aircraft::Outputs& out, FaultTarget target) {
   const Gnss& g = out.gnss.value;
   switch (target) {

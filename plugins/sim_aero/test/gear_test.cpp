@@ -177,7 +177,7 @@ TEST_CASE(
     if (p.crashed()) continue;
     CHECK(p.state().v_n.norm() < 1e-3);
     CHECK(p.on_ground());
-    CHECK(rises / (0.5 * mass * 12 * 12) < 0.02);  // what the springs give back
+    CHECK(rises / (0.5 * mass * 12 * 12) < 0.02);  // energy returned by the springs
     CHECK(p.state().p_n.x() > 0.7 * 12 * 12 / (2 * 0.4 * g));
     CHECK(p.state().p_n.x() < 2 * 12 * 12 / (2 * 0.4 * g));  // the wing bears a part at first
     CHECK(-p.state().p_n.z() == Approx(0.12).epsilon(0.02));
@@ -283,7 +283,7 @@ TEST_CASE("a gear on which nothing stands is refused, with the field and what is
         "gear.contacts: sim.contacts_beside(ahead of)");
   CHECK(words({contact(0.3, 0.1, 0.2, 0.4), contact(-0.5, 0.2, 0.2, 0.3), contact(-0.5, 0.4, 0.2, 0.3)}) ==
         "gear.contacts: sim.contacts_beside(right of)");
-  // around three corners of it, and yet beside it
+  // around three of its corners, but outside of it
   CHECK(words({contact(0.5, 0.1, 0.2, 0.4), contact(-0.1, -0.5, 0.2, 0.3), contact(0.6, -0.4, 0.2, 0.3)}) ==
         "gear.contacts: sim.contacts_beside(on one side of)");
   CHECK(words({contact(0.3, 0, 0.2, 0.4), contact(-0.3, 0.2, 0.2, 0.3), contact(-0.3, -0.2, 0.2, 0.3)}) ==

@@ -63,7 +63,7 @@ TEST_CASE("it is held with its nose up, whatever the wind does, and let go with 
     CHECK(std::hypot(x.p_n.x(), x.p_n.y()) == Approx(l.length_m * std::cos(0.2)).epsilon(0.05));
     CHECK(std::atan2(x.v_n.y(), x.v_n.x()) == Approx(0.5).epsilon(0.01));
     CHECK_FALSE(b->out.contact.value.touching);
-    until(*b, 2 + push_s + 6);  // nobody flies it: it is on the ground again
+    until(*b, 2 + push_s + 6);  // without commands it is on the ground again
     CHECK(b->out.contact.value.touching);
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The component beside the simulation library that it stands on.
+// Comparison of the component with the simulation library.
 #include <doctest/doctest.h>
 
 #include "fly.hpp"
@@ -40,7 +40,7 @@ TEST_CASE("the library flies what the plugin flies, to the bit") {
   const Plant& plant = bench.component().plant();
   sim.set({plant.state(), plant.deflections(), plant.propeller_radps()});
   for (int i = 0; i < 2000; ++i) {
-    sim.step(given, dt);  // what was written before this read
+    sim.step(given, dt);  // the actions before this read
     pass(bench, &(given = weaving(i)));
   }
   CHECK((plant.state().p_n - sim.body().p_n).norm() == 0);

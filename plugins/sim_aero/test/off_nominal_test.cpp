@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a plant does a second time, on an empty battery, and how its gear damps: closed forms.
+// A plant in a second run, with an empty battery, and the damping of its gear: closed forms.
 #include <doctest/doctest.h>
 
 #include <cmath>

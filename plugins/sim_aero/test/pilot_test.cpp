@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A transmitter that is wired to the aircraft: what its receiver says, who flies, what happens without it.
+// A transmitter that is connected to the aircraft: its receiver, the source of commands, and its loss.
 #include "plugins/sim_aero/pilot.hpp"
 
 #include <doctest/doctest.h>

@@ -124,7 +124,7 @@ TEST_CASE("the airspeed that a wrong pitot tube shows is that of its pressure") 
 }
 
 TEST_CASE("a noisy sensor has its own deviation times the factor, with and without errors of its own") {
-  constexpr double factor = 1.5;  // what is there already counts
+  constexpr double factor = 1.5;  // the present offset counts
   constexpr int passes = 16000;   // 40 s: 4000 samples of most; the deviation of a deviation is 1.1 %
   for (const SensorSet set : {SensorSet::rosflight, SensorSet::ublox, SensorSet::perfect}) {
     const SensorSpec spec = sensor_spec(set == SensorSet::perfect ? SensorSet::ublox : set);

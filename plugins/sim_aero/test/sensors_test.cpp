@@ -134,7 +134,8 @@ TEST_CASE("the rosflight sensors have the deviations of its simulator") {
 TEST_CASE("the ublox sensors have the white noise of their data sheets") {
   const Plant p = flying();
   Sensors s = sensors(SensorSet::ublox);
-  const auto white = [](const std::function<double()>& draw) {  // half of what successive samples differ by
+  // half of the mean squared difference of successive samples
+  const auto white = [](const std::function<double()>& draw) {
     double squares = 0, before = draw();
     for (int i = 0; i < 20000; ++i) {
       const double now = draw();

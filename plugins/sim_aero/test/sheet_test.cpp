@@ -95,7 +95,7 @@ TEST_CASE("a bias instability is the lowest Allan deviation, noise and walk incl
   const Curve curve = allan_curve(s.gyro, s.gyro_sheet, 50, 9000, 11);
   CHECK(curve.at_1s() / (1e-4 / std::sqrt(2)) == Approx(1).epsilon(0.1));
   CHECK(curve.lowest() / 3e-5 == Approx(1).epsilon(0.1));
-  suite.imu.gyro.instability_radps = 1e-6;  // what the noise hides
+  suite.imu.gyro.instability_radps = 1e-6;  // below the noise
   CHECK_THROWS_WITH(sensors(suite), doctest::Contains("sensor_file: sim_aero.instability_too_small"));
 }
 

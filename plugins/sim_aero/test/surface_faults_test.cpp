@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What failing surfaces, motor, battery and ice do to the aircraft, against the equations by hand.
+// Effect of failing surfaces, motor, battery and ice on the aircraft, against the equations by hand.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -37,7 +37,7 @@ struct Tunnel {  ///< an aircraft that is held in its trimmed flight: only surfa
       plant.set_state(held);
     }
   }
-  /// The moment about the centre of gravity, from what it does to a body rate of zero.
+  /// The moment about the centre of gravity, from the angular acceleration at zero body rate.
   Vector3d moment(const Actuators& command) {
     RigidBody still = held;
     still.omega_b.setZero();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the plant does on every heading, its time constants and couplings, and errors of sensors that have
-// nothing to do with each other.
+// The plant on every heading, its time constants and couplings, and independent errors of sensors.
 #include <doctest/doctest.h>
 
 #include <cmath>

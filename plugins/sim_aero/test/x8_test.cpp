@@ -48,7 +48,7 @@ TEST_CASE("the X8 flies hands-off for a minute") {
   const Actuators u = held(a, 200);
   fly(*b, u, 60);
   const Plant& plant = b->component().plant();
-  // The Dutch roll below has grown by exp(0.36 * 60), 3e9: what the trim leaves, 1e-12, is in sight.
+  // The Dutch roll below has grown by exp(0.36 * 60), 3e9: the error of the trim, 1e-12, becomes visible.
   CHECK(std::abs(-plant.state().p_n.z() - 200) < 2);
   CHECK(plant.air_velocity_b().norm() == Approx(18).epsilon(0.02));
   CHECK(std::abs(euler_from(plant.state().q_nb).roll_rad) < 0.2);
@@ -73,7 +73,7 @@ TEST_CASE("the X8's Dutch roll grows as its published inertia and derivatives ha
     return most;
   };
   const double period = 2 * std::numbers::pi / 2.99;
-  fly(*b, u, 2);  // what else was excited has gone
+  fly(*b, u, 2);  // the other excited modes have decayed
   const double begin = widest(period);
   fly(*b, u, 2 * period);
   CHECK(widest(period) / begin == Approx(std::exp(0.361 * 3 * period)).epsilon(0.1));

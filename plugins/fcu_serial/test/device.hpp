@@ -14,8 +14,8 @@
 
 namespace fulmar::fcu::testing {
 
-/// Since shortly before the first call: a controller that is new begins at 0, and what has passed since the
-/// computer was switched on is not to be flown through.
+/// Time since shortly before the first call: the clock of a new controller starts at 0, and the time since
+/// the boot of the computer must not be simulated.
 inline std::int64_t wall_us() {
   const auto now_us = [] {
     timespec t{};
@@ -26,13 +26,13 @@ inline std::int64_t wall_us() {
   return now_us() - begun_us;
 }
 
-/// Calls `work` again and again in a thread of its own until it is gone.
+/// Calls `work` repeatedly in a separate thread until it is destroyed.
 class Device {
  public:
   explicit Device(std::function<void(Pty&)> work)
       : thread_([this, work = std::move(work)] {
           while (!over_) {
-            // Who holds a mutex almost always gets it again at once: whoever waits has to be let in.
+            // The thread that holds a mutex usually gets it again at once, so waiting threads must be let in.
             while (waiting_ > 0) std::this_thread::yield();
             const std::lock_guard lock(mutex_);
             work(pty_);
@@ -64,7 +64,7 @@ inline void pause_us(long us) {
   nanosleep(&t, nullptr);
 }
 
-/// One pass of a controller: what has come, and what is due.
+/// One pass of a controller: reads the input and sends the frames that are due.
 inline void serve(peer::Firmware& fcu, Pty& pty) {
   std::array<std::uint8_t, 1024> room{};
   if (pty.master() >= 0)

@@ -199,7 +199,7 @@ TEST_CASE(
 
 namespace {
 
-/// The thread of this name in a process; -1: there is none.
+/// The thread of this name in a process; -1: none.
 pid_t thread_of(pid_t process, const std::string& name) {
   for (const auto& task : std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/task")) {
     std::string found;

@@ -64,7 +64,7 @@ TEST_CASE("the fifo holds 256 packets and drops the newest") {
   Companion c(fast);
   c.wait(1);
   c.fcu.receive(encode(ParamRequestList{}, 0).view(), c.now_us);
-  c.fcu.run(c.now_us + 2000);  // 700 passes that nobody reads
+  c.fcu.run(c.now_us + 2000);  // 700 passes without a reader
   CHECK(c.fcu.waiting() == 256);
   CHECK(c.fcu.dropped() > 70);
   Frame f;

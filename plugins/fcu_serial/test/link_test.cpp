@@ -74,7 +74,7 @@ TEST_CASE("the loop sleeps until an inertial sample or its deadline") {
   CHECK_FALSE(link.wait_imu(deadline));
   CHECK(link.now_ns() >= deadline);
   CHECK_FALSE(link.wait_imu(INT64_MIN / 2));  // long over
-  c.send(SmallMag{});                         // wakes nobody
+  c.send(SmallMag{});                         // wakes no thread
   CHECK_FALSE(link.wait_imu(link.now_ns() + 20 * ms));
 
   std::thread later([&] {
@@ -148,7 +148,7 @@ TEST_CASE(
     c.clock_ns = [&] {
       return link.now_ns() + 5000 * second;
     };                           // started 5000 s ago, runs at the host's pace
-    std::int64_t widest_ns = 0;  // round trip: what a slow first answer left is taken back little by little
+    std::int64_t widest_ns = 0;  // round trip: the effect of a slow first answer decreases gradually
     const auto look = [&] { widest_ns = std::max(widest_ns, link.state().round_trip_ns); };
     REQUIRE(c.listen_until([&] {
       look();
@@ -186,7 +186,7 @@ TEST_CASE("watched parameters are asked for until they have come, ten at a time,
   REQUIRE(c.listen_until([&] { return c.asked_for().size() == 10; }));
   CHECK(c.asked_for() == std::vector<std::string>(options.watched.begin(), options.watched.begin() + 10));
   CHECK(c.heard[ParamRequestRead::id][0].as<ParamRequestRead>().param_index == -1);
-  // The first answers make room; what is not answered is asked again.
+  // The first answers make room; unanswered requests are repeated.
   c.heard.clear();
   c.answer_parameter("PARAMETER_0", 1);
   c.answer_parameter("PARAMETER_1", 1);

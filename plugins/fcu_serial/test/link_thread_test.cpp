@@ -115,12 +115,12 @@ TEST_CASE("frames of the loop and of the link's thread go out whole and in order
     OffboardControl command;
     for (std::size_t i = 0; i < commands; ++i) {
       while (i > arrived + 8)
-        sched_yield();  // there is room on the line and in what is left for the other thread
+        sched_yield();  // there is room on the line and in the queue for the other thread
       command.u[0] = static_cast<float>(i);
       if (!link.send(command)) break;
     }
   });
-  for (std::size_t before = commands; arrived != before;) {  // patience is for who gets on at all
+  for (std::size_t before = commands; arrived != before;) {  // a time-out for threads that make progress
     before = arrived;
     c.listen_until([&] {
       c.send_imu(1000);

@@ -300,7 +300,7 @@ TEST_CASE("every frame among garbage is found, and the frame behind a damaged on
     good.push_back(frame);
   }
   stream.insert(stream.end(), max_frame,
-                0);  // a false start at the very end waits for what it takes for its rest
+                0);  // a false start at the very end waits for its remaining bytes
   std::vector<Bytes> found;
   for (const Packet& p : parse(parser, stream, 100)) found.push_back(bytes_of(p));
   std::size_t at = 0;
@@ -352,7 +352,7 @@ TEST_CASE("missing frames are counted by their sequence, over its wrap, and not 
 }
 
 TEST_CASE("whatever bytes come, each packet is a frame that stood in them, in order") {
-  // Under the sanitizers this is also the test that nothing is read or written beyond the buffer.
+  // Under the sanitizers this also checks for access beyond the buffer.
   const std::size_t total = std::getenv("FULMAR_LONG") != nullptr ? 100'000'000 : 2'000'000;
   Random random(4);
   Parser parser;

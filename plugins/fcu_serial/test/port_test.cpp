@@ -64,7 +64,7 @@ class Child {
   pid_t pid_ = -1;
 };
 
-/// What another user is told.
+/// The message for another user.
 std::string fault_as_nobody(const std::string& where) {
   int out[2];
   REQUIRE(pipe(out) == 0);

@@ -31,7 +31,7 @@ class Pty {
   Pty(const Pty&) = delete;
   Pty& operator=(const Pty&) = delete;
 
-  /// The name stays over pull() and plug(); what it points to does not.
+  /// The name stays over pull() and plug(); its target changes.
   std::string name() const { return link_.string(); }
   /// The device itself, as /dev/pts/3.
   const std::string& device() const { return device_; }
@@ -46,12 +46,12 @@ class Pty {
       throw std::runtime_error("no pseudo-terminal");
     fcntl(master_, F_SETFL, O_NONBLOCK);
     fcntl(master_, F_SETFD, FD_CLOEXEC);
-    // Raw from the start: until the other side has set it up, the line discipline would echo what is written.
+    // Raw from the start: before the other side sets it up, the line discipline would echo all data.
     termios settings{};
     tcgetattr(slave, &settings);
     cfmakeraw(&settings);
     tcsetattr(slave, TCSANOW, &settings);
-    // Kept open: a terminal that nobody has open looks unplugged from the master's side.
+    // Kept open: for the master, a terminal that is not open looks unplugged.
     slave_ = slave;
     fcntl(slave_, F_SETFD, FD_CLOEXEC);
     device_ = path.data();
@@ -77,7 +77,7 @@ class Pty {
     const ssize_t n = ::read(master_, room.data(), room.size());
     return n > 0 ? static_cast<std::size_t>(n) : 0;
   }
-  /// All or nothing: what finds no room is lost, as on a wire, but a part of a frame is followed by its rest.
+  /// All or nothing: data without room is lost, as on a wire, but a part of a frame is followed by its rest.
   bool write(std::span<const std::uint8_t> bytes) const {
     std::size_t done = 0;
     for (int tries = 0; done < bytes.size() && tries < 1000; ++tries) {

@@ -15,7 +15,7 @@
 namespace fulmar::fcu::testing {
 
 inline constexpr std::int64_t ms = 1'000'000, second = 1'000'000'000;
-inline constexpr int patience_ms = 10'000;  // whatever happens at all happens long before
+inline constexpr int patience_ms = 10'000;  // far longer than any event takes
 
 inline std::int64_t monotonic_ns() {
   timespec now{};
@@ -23,8 +23,8 @@ inline std::int64_t monotonic_ns() {
   return now.tv_sec * second + now.tv_nsec;
 }
 
-/// A controller by hand: sends what it is told to, keeps what it hears, answers questions when it has a
-/// clock.
+/// A scripted controller: sends frames on request, stores received ones, and answers requests for the time
+/// when it has a clock.
 class Controller {
  public:
   Pty pty;
@@ -52,7 +52,7 @@ class Controller {
       send(answer);
     });
   }
-  /// Listens until it is so. False when it never is.
+  /// Receives until the condition holds. Returns false when it never does.
   bool listen_until(const std::function<bool()>& so) {
     for (const std::int64_t end = monotonic_ns() + patience_ms * ms; !so();) {
       if (monotonic_ns() > end) return false;
@@ -77,7 +77,7 @@ class Controller {
   std::uint8_t sequence_ = 0;
 };
 
-/// What comes out of the queue until one is like this.
+/// Pops from the queue until an event matches.
 inline bool pop_until(Link& link, Controller& controller,
                       const std::function<bool(const Received&)>& wanted) {
   for (const std::int64_t end = monotonic_ns() + patience_ms * ms; monotonic_ns() < end;) {

@@ -122,7 +122,7 @@ TEST_CASE("one question in ten is answered 50 ms late, one twice, one never: not
       CHECK(take(clock, a) == ClockSync::Verdict::ignored);  // an answer counts once
     }
     CHECK(clock.answered(a.ts1 - 7, a.tc1, a.came_ns + 1) ==
-          ClockSync::Verdict::ignored);  // of somebody else's question
+          ClockSync::Verdict::ignored);  // of another sender's request
     CHECK(clock.answered(t + 5 * second, a.tc1, a.came_ns + 2) ==
           ClockSync::Verdict::ignored);                                         // of the future
     CHECK(clock.answered(t, 0, a.came_ns + 3) == ClockSync::Verdict::ignored);  // a question, not an answer

@@ -100,8 +100,7 @@ TEST_CASE("a reboot in flight is told, and the airspeed that it has zeroed is no
   f.world.happen(LinkEvent::rebooted);
   f.fly(1);
   CHECK(f.heard("fcu_serial.rebooted_armed"));
-  CHECK_FALSE(
-      f.heard("fcu_serial.pilot_flies"));  // its first status says so, of an aircraft that is disarmed
+  CHECK_FALSE(f.heard("fcu_serial.pilot_flies"));  // reported by its first status, of a disarmed aircraft
   CHECK(f.heard("fcu_serial.pitot_zeroed_in_flight"));
   CHECK_FALSE(f.status.in_control);
   const int before = f.published["pitot"], baro = f.published["baro"];
@@ -137,7 +136,7 @@ TEST_CASE("a pitot tube that was zeroed in the wind or in the air is not used by
 TEST_CASE(
     "a pitot tube that is zeroed wrong while the host runs is used no more, and again when it is right") {
   Flying f;
-  f.world.fcu.inputs.pitot_pa = 177;  // 17 m/s: the controller has rebooted and nobody has seen it
+  f.world.fcu.inputs.pitot_pa = 177;  // 17 m/s: the controller has rebooted undetected
   f.fly(6);
   CHECK(f.published["pitot"] > 500);
   f.fly(6);  // zeroed 10 s after its boot
@@ -145,8 +144,7 @@ TEST_CASE(
   int before = f.published["pitot"];
   f.fly(1);
   CHECK(f.published["pitot"] == before);
-  CHECK(f.bench.out.link.value.pitot_zeroed ==
-        false);  // it stands in the controller: nobody need remember it
+  CHECK(f.bench.out.link.value.pitot_zeroed == false);  // the controller stores it
   f.world.fcu.params().set(peer::param("DIFF_PRESS_BIAS"), 3.f);
   f.fly(1);
   CHECK(f.heard("fcu_serial.pitot_used_again"));
@@ -319,7 +317,7 @@ TEST_CASE("its inertial unit dies: the loop goes on, and it is told") {
   CHECK(static_cast<double>(f.ticks_ns.size() - ticks) == Approx(100).epsilon(0.05));
   CHECK_FALSE(f.status.in_control);
   CHECK(f.heard("fcu_serial.imu_silent") !=
-        f.heard("fcu_serial.controller_silent"));  // what else it sends then is its affair
+        f.heard("fcu_serial.controller_silent"));  // its other messages are not checked
 }
 
 TEST_CASE("another controller in its place is noticed: its firmware, its parameters") {

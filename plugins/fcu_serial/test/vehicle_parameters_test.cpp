@@ -63,7 +63,7 @@ TEST_CASE(
     Reader r(loss);
     r.f.world.fcu.params().set(peer::param("RC_ARM_CHN"), -1);
     r.f.world.fcu.params().set(peer::param("ACC_X_BIAS"), -0.037f);
-    r.fly(loss > 0 ? 10 : 6);  // 7.7 s after its boot the controller has zeroed the airspeed by itself
+    r.fly(loss > 0 ? 10 : 6);  // 7.7 s after its boot the controller has zeroed the airspeed
     CHECK(r.as_in_the_controller());
     if (loss == 0) CHECK(r.messages == all);
     CHECK(r.values["RC_ARM_CHN"] == "-1");
@@ -114,7 +114,7 @@ TEST_CASE("after a reboot they are asked for anew, and what is other than before
   r.f.world.fcu.params().set(peer::param("X_EQ_TORQUE"), 0.25f);
   r.fly(1);
   const std::size_t before = r.messages;
-  r.f.world.fcu.reboot(r.f.world.now_ns / 1000);  // what was not written is gone
+  r.f.world.fcu.reboot(r.f.world.now_ns / 1000);  // unwritten values are lost
   r.f.world.happen(LinkEvent::rebooted);
   r.fly(6);
   CHECK(r.messages == before + 1);

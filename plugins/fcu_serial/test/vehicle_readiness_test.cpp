@@ -143,7 +143,7 @@ TEST_CASE(
   f.state.reset();
   f.commands = false;
   for (const fulmar_input* input : {f.bench.in.state.input, f.bench.in.actuators.input})
-    const_cast<fulmar_input*>(input)->data = nullptr;  // what a silent host gives
+    const_cast<fulmar_input*>(input)->data = nullptr;  // input of a silent host
   CHECK(sent_in(f, 15) == 0);
   CHECK(f.heard("fcu_serial.not_in_control"));
   CHECK_FALSE(f.heard("attitude"));
@@ -206,7 +206,7 @@ TEST_CASE("a mission that flies along a path is not ready without one, and does 
   f.bench.params.needs_path.value = true;
   f.state = placeless();
   f.fly(5);
-  CHECK(times(f, "missing.path") == 0);  // which the manager gives once there is a position
+  CHECK(times(f, "missing.path") == 0);  // which the manager publishes once there is a position
   f.state = known();
   f.fly(12);
   CHECK(times(f, "fcu_serial.not_ready(missing.path)\n") == 1);
@@ -371,7 +371,7 @@ TEST_CASE("a computer that is too slow for its laws says so, again, and when it 
     const std::int64_t end = f.world.now_ns + static_cast<std::int64_t>(seconds * 1e9);
     while (f.world.now_ns < end) {
       f.tick();
-      f.world.run(f.world.now_ns + step_ns, false);  // what the laws take: samples come each 2.5 ms
+      f.world.run(f.world.now_ns + step_ns, false);  // the time of the laws: a sample arrives every 2.5 ms
     }
   };
   slow_for(5, 2'000'000);

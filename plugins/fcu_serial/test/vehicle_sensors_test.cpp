@@ -227,7 +227,7 @@ TEST_CASE("sticks beyond their ends and channels that are not there stay within 
   CHECK(rc.pitch_frac == 1);
   CHECK(rc.throttle_frac == 0);
   CHECK(rc.yaw_frac == 0);
-  CHECK(rc.aux1_frac == 0);  // 0 us: nothing there
+  CHECK(rc.aux1_frac == 0);  // 0 us: no channel
   map.take("RC_F_CHN", 12);
   CHECK(to_rc(m, map, Throws{}, true).throttle_frac == 0);
 }

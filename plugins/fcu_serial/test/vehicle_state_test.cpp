@@ -102,7 +102,7 @@ TEST_CASE("the errors are the controller's own, and three of ours") {
   h.frame_ns = h.imu_ns = now - 201 * ms;
   CHECK((evaluate(h, now).errors & own_error_link_down) != 0);
   CHECK(evaluate(h, now).health == Health::failed);
-  CHECK(evaluate(h, now).armed);  // as last known
+  CHECK(evaluate(h, now).armed);  // last known state
 }
 
 TEST_CASE("a controller that is back is not told to have no radio before that could speak") {

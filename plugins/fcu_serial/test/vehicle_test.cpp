@@ -126,7 +126,7 @@ TEST_CASE("no tick allocates") {
   f.imu_ns.reserve(10000);
   f.world.sent.reserve(10000);
   f.world.sent_ns.reserve(10000);
-  // The controller beside it allocates: only the vehicle's own calls are counted.
+  // The simulated controller allocates: only the vehicle's own calls are counted.
   std::uint64_t made = 0;
   for (int i = 0; i < 400; ++i) {
     f.world.run(f.world.now_ns + 2'500'000, true);

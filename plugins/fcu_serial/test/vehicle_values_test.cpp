@@ -270,7 +270,7 @@ TEST_CASE(
   CHECK(asked == "0 1 2 ");
   REQUIRE(out.size() == 1);
   CHECK(text(out, 0) == "fcu_serial.params_changed(1)");
-  CHECK_FALSE(book.take(parameter(1, 3, 8.5f)));  // known
+  CHECK_FALSE(book.take(parameter(1, 3, 8.5f)));  // already known
   CHECK_FALSE(book.take(parameter(3, 3, 1)));     // beyond
   const auto other = book.take(parameter(2, 3, -0.1f, "GAIN"));
   REQUIRE(other);

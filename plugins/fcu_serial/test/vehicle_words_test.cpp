@@ -73,7 +73,7 @@ TEST_CASE("a computer that stood still blames nobody else") {
       CHECK(times(f, part) == 0);
     }
     CHECK(f.status.in_control);
-    f.world.cut = true;  // what is silent from then on is told as ever
+    f.world.cut = true;  // silence from then on is reported as usual
     f.fly(0.5);
     CHECK(times(f, "fcu_serial.controller_silent") == 1);
   }
@@ -159,7 +159,7 @@ TEST_CASE("an attitude that is lost while the computer flies calls the pilot, on
   f.state->attitude_valid = false;
   f.fly(3);
   CHECK(times(f, "fcu_serial.attitude_lost") == 1);
-  // an estimate that nobody renews is lost too
+  // an estimate that is not renewed is lost too
   Flying silent;
   cruising(silent);
   silent.state.reset();

@@ -26,7 +26,7 @@ struct World {
   peer::Firmware fcu;
   std::int64_t now_ns = 0;
   bool plugged = true;         ///< false: the device is gone
-  bool cut = false;            ///< the device is there, and nothing comes through
+  bool cut = false;            ///< the device is open, but no data passes
   bool passes = true;          ///< false: the device takes no frame
   std::int64_t stands_ns = 0;  ///< the whole computer stops for so long in its next wait
   std::uint64_t bytes = 0, text_bytes = 0, frames = 0;
@@ -41,7 +41,7 @@ struct World {
     if (for_imu && stands_ns > 0) {
       now_ns += std::exchange(stands_ns, 0);
       fcu.run(now_ns / 1000);
-      fcu.take();  // what came meanwhile found no room
+      fcu.take();  // data that arrived meanwhile had no room
       return false;
     }
     while (true) {

@@ -78,8 +78,7 @@ class Airplane {
       p.stand(0, 0, w.heading_rad);
     return p;
   }
-  /// On the ground the gusts begin anew, 5 s before: as sim_aero's do, so that both fly through the same
-  /// ones.
+  /// On the ground the gusts restart 5 s before, as in sim_aero, so that both have the same gusts.
   void release() {
     released_ = true;
     if (world_.start_height_m > 0) return;

@@ -22,9 +22,9 @@ class Endpoint {
  public:
   virtual ~Endpoint() = default;
   virtual int descriptor() const = 0;                           ///< -1 while unplugged
-  virtual std::size_t read(std::span<std::uint8_t> room) = 0;   ///< 0: nothing
-  virtual void write(std::span<const std::uint8_t> bytes) = 0;  ///< what nobody takes is lost
-  virtual bool attended() const { return true; }                ///< somebody has it open
+  virtual std::size_t read(std::span<std::uint8_t> room) = 0;   ///< 0: no data
+  virtual void write(std::span<const std::uint8_t> bytes) = 0;  ///< data without a reader is lost
+  virtual bool attended() const { return true; }                ///< a program has it open
   virtual void unplug() {}
   virtual void plug() {}
   virtual std::string name() const = 0;
@@ -45,7 +45,7 @@ class Terminal : public Endpoint {
     const int slave =
         ::open(slave_.c_str(),
                O_RDWR | O_NOCTTY |
-                   O_CLOEXEC);  // raw, and from its close on the master sees whether anybody is there
+                   O_CLOEXEC);  // raw; after its close the master can detect whether the other side is open
     termios t{};
     ::tcgetattr(slave, &t);
     ::cfmakeraw(&t);
@@ -87,7 +87,7 @@ class Terminal : public Endpoint {
   int master_ = -1;
 };
 
-/// Answers whom it heard last.
+/// Replies to the last sender.
 class Datagrams : public Endpoint {
  public:
   Datagrams(std::uint16_t local, std::uint16_t remote)

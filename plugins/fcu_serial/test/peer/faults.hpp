@@ -31,7 +31,7 @@ class Line {
           static_cast<std::uint8_t>(1u << static_cast<unsigned>(random_.uniform(0, 7.99)));
     }
   }
-  /// What has arrived at the other end. False: nothing yet.
+  /// Data that has arrived at the other end. Returns false for none.
   bool take(std::vector<std::uint8_t>& bytes, std::int64_t now_us) {
     if (waiting_.empty() || waiting_.front().at_us > now_us) return false;
     bytes = std::move(waiting_.front().bytes);

@@ -232,7 +232,7 @@ void Firmware::write_outputs(const Outputs14& mixed) {
       else if (v < 0)
         v = 0;
       outputs_[j] = armed() ? v : 0;
-    }  // what nobody commands keeps what it had
+    }  // outputs without a command keep their values
   }
 }
 

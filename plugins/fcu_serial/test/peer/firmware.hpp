@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A ROSflight 2.0 flight controller for tests: its messages, rates, delays, refusals and oddities, without a
-// device and without a clock. Source: ROSflight firmware 2.0.1 and its behaviour on a serial line.
+// A ROSflight 2.0 flight controller for tests: its messages, rates, delays, rejections and peculiarities,
+// without a device and without a clock. Source: ROSflight firmware 2.0.1 and its behaviour on a serial line.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -19,8 +19,8 @@
 
 namespace fulmar::fcu::peer {
 
-/// What the board's sensors and the radio say now; raw, before the firmware's own corrections. Set it
-/// whenever you like.
+/// Present values of the board's sensors and the radio; raw, before the corrections of the firmware. They may
+/// be set at any time.
 struct Inputs {
   Vec accel{0, 0, -9.80665}, gyro{};  ///< m/s2, rad/s
   double imu_kelvin = 300.15;
@@ -33,7 +33,7 @@ struct Inputs {
   double battery_volt = 23, battery_amp = 1;
   std::optional<double> range_m;
   std::array<std::uint16_t, 8> rc_us{1500, 1500, 1000, 1500, 1000, 1000, 1000, 1000};
-  bool rc_frames = true;  ///< false: the radio's frames stop, and no flag says so
+  bool rc_frames = true;  ///< false: the frames of the radio stop, without a flag
   bool rc_lost = false;   ///< the receiver's flag
   bool imu_works = true, gnss_works = true, mag_works = true, baro_works = true, pitot_works = true;
   std::int16_t sensor_errors = 0;
@@ -53,7 +53,7 @@ struct Options {
   bool refuses = false;  ///< no command is accepted
   bool flash_fails = false;
   bool reboots = true;  ///< H7 boards acknowledge and stay
-  bool answers = true;  ///< false: streams, and answers nothing
+  bool answers = true;  ///< false: streams, but does not answer
 };
 
 enum class FlightState : std::uint8_t { preflight, error, calibrating, armed, failsafe };
@@ -77,17 +77,17 @@ class Firmware {
   void receive(std::span<const std::uint8_t> bytes, std::int64_t now_us);
   /// Advances to `now_us`: all samples, frames of the radio and passes up to then.
   void run(std::int64_t now_us);
-  /// The owner's time of what happens next.
+  /// Time of the next event, on the owner's clock.
   std::int64_t next_us() const;
 
-  /// What it has sent, oldest first; one frame, or everything. The board's fifo holds 256; what does not fit
-  /// is dropped.
+  /// Takes sent frames, oldest first; one frame, or all. The board's fifo holds 256; further ones are
+  /// dropped.
   bool take(Frame& frame);
   std::vector<std::uint8_t> take();
   std::size_t waiting() const { return fifo_.size(); }
 
   void reboot(std::int64_t now_us);
-  /// A hard fault: the record of it is told after the next boot, which follows at once.
+  /// A hard fault: its record is sent after the reboot, which follows at once.
   void crash(std::int64_t now_us);
 
   const Outputs14& outputs() const { return outputs_; }  ///< servos and motors 0..1

@@ -168,7 +168,7 @@ void Firmware::send_param(std::size_t id) {
   send(m, 0);  // not 250
 }
 
-/// Copies 50 bytes out of a shorter literal: what stands behind its NUL is memory.
+/// Copies 50 bytes out of a shorter literal: the bytes after its NUL are undefined.
 void Firmware::send_version() {
   RosflightVersion m;
   m.version = field<50>(options_.version);

@@ -25,7 +25,7 @@ struct CannedMixer {
 
 inline CannedMixer canned(std::int32_t choice) {
   CannedMixer c;
-  if (choice < mixer_fixed_wing) {  // those of multirotors: motors that nothing moves
+  if (choice < mixer_fixed_wing) {  // those of multirotors: motors without a command
     c.type.fill(OutputType::motor);
     return c;
   }
@@ -43,8 +43,8 @@ inline CannedMixer canned(std::int32_t choice) {
 
 class Mixing {
  public:
-  /// Takes up PRIMARY_MIXER and SECONDARY_MIXER, and writes what a canned one consists of into the
-  /// parameters. False: no such mixer.
+  /// Reads PRIMARY_MIXER and SECONDARY_MIXER, and writes the matrix of a canned one into the parameters.
+  /// Returns false for an unknown one.
   bool load(Params& p) {
     const std::int32_t choice = p.i(param("PRIMARY_MIXER")), second = p.i(param("SECONDARY_MIXER"));
     valid_ = choice >= 0 && choice <= mixer_custom;
@@ -64,7 +64,7 @@ class Mixing {
   OutputType type(std::size_t j) const { return j < 10 ? type_[j] : OutputType::aux; }
   const Matrix10& primary() const { return primary_; }
 
-  /// Rows 0 to 2 by who has the throttle, 3 to 5 by who has the attitude, the rest primary.
+  /// Rows 0 to 2 by the source of the throttle, 3 to 5 by that of the attitude, the rest primary.
   Outputs14 mix(const Commands& u, bool pilot_throttle, bool pilot_attitude) const {
     Outputs14 out{};
     for (std::size_t j = 0; j < 10; ++j)
@@ -107,8 +107,7 @@ class Mixing {
   Matrix10 primary_{}, secondary_{};
 };
 
-/// What the servos of mixers 9 and 10 do to the aircraft, -1..1 and throttle 0..1: the mixer the other way
-/// round.
+/// Effect of the servos of mixers 9 and 10 on the aircraft, -1..1 and throttle 0..1: the inverse mixer.
 struct Deflected {
   double throttle = 0, aileron = 0, elevator = 0, rudder = 0;
 };

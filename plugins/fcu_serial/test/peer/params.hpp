@@ -167,7 +167,7 @@ class Params {
   bool integer(std::size_t id) const { return integer_[id]; }
   const std::string& name(std::size_t id) const { return names_[id]; }
   std::uint32_t bits(std::size_t id) const { return bits_[id]; }
-  /// param_count when there is none.
+  /// param_count for an unknown name.
   std::size_t find(std::string_view name) const {
     for (std::size_t k = 0; k < param_count; ++k)
       if (names_[k] == name) return k;

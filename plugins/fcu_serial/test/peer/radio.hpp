@@ -95,7 +95,7 @@ class Mux {
     const bool pilots = pilot_throttle();
     for (std::size_t i = 0; i < 3; ++i) u[i] = pilots ? rc[i] : offboard.active[i] ? offboard.u[i] : 0;
     for (std::size_t i = 6; i < 10; ++i)
-      if (offboard.active[i]) u[i] = offboard.u[i];  // never the pilot's: they keep what they had
+      if (offboard.active[i]) u[i] = offboard.u[i];  // never the pilot's: they keep their values
   }
   void restart() { *this = {}; }
 
@@ -132,7 +132,7 @@ class Mux {
               : offboard.mode == ControlMode::angle && k == 2 ? ControlMode::rate
                                                               : offboard.mode;
   }
-  /// The lag counts from the first deviation and begins anew only when it is over. At boot it runs from zero.
+  /// The lag counts from the first deviation and restarts only after its end. At boot it runs from zero.
   bool deviated(const Params& p, const Radio& radio, std::size_t k, std::int64_t now_ms) {
     if (now_ms < since_ms_[k] + p.i(param("RC_OVRD_LAG_T"))) return true;
     if (std::abs(radio.stick[k]) <= p.f(param("RC_OVRD_DEV"))) return false;

@@ -29,10 +29,10 @@ struct Script {
   double arm_at = 2;  ///< with the override switch on, half a second before it goes off
   double disarm_at = never_s;
   Span rc_silent, rc_lost, override, unplugged, mute;
-  Span no_fix;       ///< the receiver speaks, and says that it has none
-  Span gnss_silent;  ///< the receiver says nothing
+  Span no_fix;       ///< the receiver reports no fix
+  Span gnss_silent;  ///< the receiver sends nothing
   double reboot_at = never_s, crash_at = never_s;
-  bool mag = true, baro = true, pitot = true;  ///< false: there is none
+  bool mag = true, baro = true, pitot = true;  ///< false: the sensor is missing
   double moved_at = never_s;                   ///< from then on the inertial unit is calibrated otherwise
   Vec moved_accel{}, moved_gyro{};             ///< by so much, m/s2 and rad/s
   bool levels = false;   ///< the pilot, when he has the aircraft in the air, holds its wings level
@@ -40,7 +40,7 @@ struct Script {
   std::array<double, 3> aux{-1, -1, -1};  ///< with `gesture`: his three other switches
 };
 
-/// What fails of the sensors, after they have been felt.
+/// Applies failures of the sensors to their samples.
 inline void fail(const Script& s, double t, Inputs& in) {
   in.mag_works = s.mag;
   in.baro_works = s.baro;

@@ -106,7 +106,7 @@ class Attitude {
       external_.reset();
     } else if (p.i(param("FILT_USE_ACC")) &&
                std::abs(a - g) < p.f(param("FILT_ACC_MARGIN")) * g * (early ? 10 : 1)) {
-      const auto& [w, x, y, z] = q;  // down, as the quaternion has it, against what the accelerometer feels
+      const auto& [w, x, y, z] = q;  // down by the quaternion, compared with the accelerometer
       const Vec down{2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)},
           felt{-accel[0] / a, -accel[1] / a, -accel[2] / a};
       const double kp = p.f(param("FILT_ACC_KP")) * (early ? 10 : 1);

@@ -86,7 +86,7 @@ class VirtualController {
   void configure(const Params& p) {
     inner_.reset();
     plane_.reset();
-    wire_.reset();  // before the next one: there is one at a time
+    wire_.reset();  // before the next one: only one exists at a time
     wire_.emplace();
     wire_->fcu.provision();
     if (p.manual) set_up_manual();
@@ -235,7 +235,7 @@ class VirtualController {
       in.rc_us[2] = static_cast<std::uint16_t>(1000 + std::lround(1000 * pilot_throttle_));
   }
 
-  /// Whoever has the aircraft has it by his sticks as they were a moment ago.
+  /// The side in control has it through its sticks of a moment ago.
   void watch_sticks(const peer::Inputs& in) {
     const peer::Firmware& f = wire_->fcu;
     std::rotate(run_.held.begin(), run_.held.end() - 1, run_.held.end());

@@ -23,7 +23,7 @@ using nlohmann::json;
 
 namespace {
 
-/// As `typed`; where it can be watched is told as soon as it is known.
+/// As `typed`; calls back with the address of the live view as soon as it is printed.
 Said watched(const std::string& words, std::atomic<int>& port) {
   return shell(FULMAR_BIN_DIR "/fulmar " + words + " 2>&1", [&](const std::string& line) {
     const std::string before = "live view: ws://127.0.0.1:";
@@ -60,7 +60,7 @@ TEST_CASE("a roll is flown by hand, and its log flies it again, byte for byte") 
   pipe.write(at_rest());
   std::atomic<bool> over{false};
   std::atomic<int> port{0};
-  std::thread pilot([&] {  // by what the aircraft does, whatever the clock says
+  std::thread pilot([&] {  // by the state of the aircraft, independent of real time
     const auto wait = [&](const std::string& field, auto there) {
       while (!over) {
         std::this_thread::sleep_for(5ms);

@@ -69,7 +69,7 @@ TEST_CASE("sticks, throttle and switches come out as a transmitter's channels, e
   pipe.plug();
   Bench<Joystick> bench;
   use(bench, pipe);
-  CHECK_FALSE(frame(bench).link);  // nothing was heard yet
+  CHECK_FALSE(frame(bench).link);  // no record yet
   pipe.write(axis(0, 16384) + axis(1, -32767) + axis(2, -32767) + axis(3, 8192) + axis(4, 32767) +
              axis(7, -32767));
   Rc rc = frame(bench);
@@ -79,7 +79,7 @@ TEST_CASE("sticks, throttle and switches come out as a transmitter's channels, e
   CHECK(rc.throttle_frac == 0);
   CHECK(rc.yaw_frac == Approx(0.25).epsilon(1e-4));
   CHECK(rc.aux1_frac == 1);
-  CHECK(rc.aux2_frac == 0);  // never heard of: the middle
+  CHECK(rc.aux2_frac == 0);  // no record: the middle
   CHECK(rc.aux4_frac == -1);
   CHECK(holds(reported(bench), "joystick.pilot_present(" + pipe.path() + ")"));
   pipe.write(axis(0, -32768) + axis(2, 32767));
@@ -133,7 +133,7 @@ TEST_CASE(
     bench.params.buttons.buttons_latch.value = latch;
     pipe.write(record(0x81, 3, 1));
     CHECK(frame(bench).aux4_frac == (latch ? -1 : 1));
-    pipe.write(button(3, false) + button(3, true) + button(3, true));  // told twice is pressed once
+    pipe.write(button(3, false) + button(3, true) + button(3, true));  // repeated records count as one press
     CHECK(frame(bench).aux4_frac == 1);
     pipe.write(button(3, false));
     CHECK(frame(bench).aux4_frac == (latch ? 1 : -1));
@@ -205,7 +205,7 @@ TEST_CASE(
   frame(bench);
   CHECK(reported(bench) == "");
   pipe.plug();
-  CHECK_FALSE(frame(bench).link);  // says nothing yet
+  CHECK_FALSE(frame(bench).link);  // no record yet
   pipe.write(axis(1, 16384));
   rc = frame(bench);
   CHECK(rc.link);
@@ -230,7 +230,7 @@ TEST_CASE("a sender that opens a pipe at any time does not find it broken, and a
   use(bench, pipe);
   frame(bench);
   for (const int value : {32767, -32767}) {
-    const int end = open(pipe.path().c_str(), O_WRONLY | O_NONBLOCK);  // fails when nobody reads
+    const int end = open(pipe.path().c_str(), O_WRONLY | O_NONBLOCK);  // fails without a reader
     REQUIRE(end >= 0);
     const std::string bytes = axis(0, value);
     CHECK(write(end, bytes.data(), bytes.size()) == 8);
@@ -268,7 +268,7 @@ TEST_CASE("a flood neither keeps frames waiting nor loses the last word") {
   use(bench, pipe);
   std::string flood;
   for (int i = 0; i < 8000; ++i) flood += axis(0, i % 2 ? 32767 : -32767);
-  pipe.write(flood + axis(0, 16384));  // all but what a pipe holds
+  pipe.write(flood + axis(0, 16384));  // all but the capacity of a pipe
   int frames = 0;
   for (Rc rc; rc.roll_frac != Approx(0.5).epsilon(1e-4) && frames < 100; ++frames) rc = frame(bench);
   CHECK(frames > 1);
@@ -305,7 +305,7 @@ TEST_CASE("what can be no joystick is refused before the flight; what may not be
   bench.params.device.value = Text<128>("");
   CHECK_THROWS_WITH(bench.component().configure(bench.params), "joystick.device_missing");
   std::filesystem::remove(pipe.path());
-  if (geteuid() == 0) return;  // who may do everything
+  if (geteuid() == 0) return;  // root has every permission
   pipe.make();
   chmod(pipe.path().c_str(), 0);
   use(bench, pipe);

@@ -29,14 +29,14 @@ class Pipe {
     end_ = open(path().c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
     REQUIRE(end_ >= 0);
   }
-  /// A pipe with nobody at its other end.
+  /// A pipe without a program at its other end.
   void make() const { REQUIRE(mkfifo(path().c_str(), 0600) == 0); }
   void pull() {
     if (end_ >= 0) close(end_);
     end_ = -1;
     std::filesystem::remove(path());
   }
-  /// At most what fits into the pipe.
+  /// Writes at most the capacity of the pipe.
   void write(const std::string& bytes) const {
     REQUIRE(::write(end_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()));
   }

@@ -39,7 +39,7 @@ class Device {
       if (n < 0) usleep(1000);  // full: the reader comes
     }
   }
-  /// What nobody reads is lost, as on a wire.
+  /// Data without a reader is lost, as on a wire.
   void try_write(const std::string& text) const {
     if (::write(master_, text.data(), text.size()) < 0) return;
   }

@@ -46,7 +46,7 @@ TEST_CASE("epochs that come in odd pieces with noise in between arrive complete 
   device.plug();
   Bench<Receiver> bench;
   use(bench, device);
-  CHECK(bench.step(0.05) == Status::ok);  // opens the port: what came before is of no known time
+  CHECK(bench.step(0.05) == Status::ok);  // opens the port: earlier data have an unknown time
   std::thread sender([&] {
     Random random(3);
     for (int s = 0; s < 20; ++s) {

@@ -72,8 +72,7 @@ TEST_CASE(
     "the errors of the twin have the deviation that the parameters say, differ by seed, and repeat with it") {
   const auto fly = [](std::uint64_t seed, double& mean_square) {
     Bench<Twin> bench(seed);
-    bench.params.correlation_time.value =
-        0.1;  // shorter than the period: every sample is nearly one of its own
+    bench.params.correlation_time.value = 0.1;  // shorter than the period: samples are nearly independent
     bench.params.latency.value = 0;
     double sum = 0, last = 0;
     int n = 0;

@@ -17,7 +17,7 @@ struct Tangent {
   double north_m = 0, east_m = 0, turn_rad = 10;  ///< where it touches, and the turning that it takes
 };
 
-/// Of all azimuths the one whose tangent comes from (n, e) along the direction of flight.
+/// The azimuth whose tangent comes from (n, e) along the direction of flight.
 Tangent tangent(const RouteOrbit& o, Turn turn, double n, double e, double from_n, double from_e) {
   const double side = turn == Turn::right ? 1 : -1;
   Tangent best;

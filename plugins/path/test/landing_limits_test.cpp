@@ -63,7 +63,7 @@ TEST_CASE("an approach that the wind refuses is flown after wind_wait, or at onc
     CHECK(strip.bench.out.progress.reason == LandingReason::crosswind);
     REQUIRE(strip.bench.out.notices.count == 1);
     CHECK(strip.bench.out.notices.items[0].severity == Severity::warning);
-    // The next flight of the same object has its own wait.
+    // The next flight of the same object waits again.
     strip.bench.activate();
     CHECK(strip.at(450, 0, away).stage == LandingStage::join);
     VehicleStatus status;

@@ -133,7 +133,7 @@ TEST_CASE("a touch-down is what the vehicle says, or two seconds without sinking
   held.s.climb_rate_mps = -0.5;
   CHECK(held.at(20, 0, 1.5, 0.1).stage == LandingStage::flare);
   held.s.climb_rate_mps = 0;
-  CHECK(held.at(20, 0, 1.5, 1.5).stage == LandingStage::flare);  // counted anew
+  CHECK(held.at(20, 0, 1.5, 1.5).stage == LandingStage::flare);  // counted again
 
   Strip reported;
   reported.approach();
@@ -142,7 +142,7 @@ TEST_CASE("a touch-down is what the vehicle says, or two seconds without sinking
   ground.contact = Contact::ground;
   reported.bench.set(reported.bench.in.ground, ground);
   reported.s.climb_rate_mps = -0.5;
-  CHECK(reported.at(20, 0, 2.5).stage == LandingStage::roll_out);  // whatever the height says
+  CHECK(reported.at(20, 0, 2.5).stage == LandingStage::roll_out);  // for any height
 }
 
 TEST_CASE("the ground above the flare's height is a touch-down, at the circle's height it is none") {
@@ -262,7 +262,7 @@ TEST_CASE("while it rolls the rudder leads back to the centre line, from either 
     CHECK(slip(side * 20, -side * 0.15) == doctest::Approx(side * 4 * 0.05));  // no more than 0.2 rad across
     CHECK(slip(side * 20, side * 0.3) == doctest::Approx(side * 0.35));
     strip.bench.params.decrab.value = 0;
-    strip.bench.retune();  // nothing is wired
+    strip.bench.retune();  // without connections
     CHECK(slip(side * 20, side * 0.3) == 0);
   }
 }
@@ -350,7 +350,7 @@ TEST_CASE("a geodetic runway is the local one, by the mission's origin or the st
     }
     REQUIRE(strip.bench.configure() == Status::ok);
     if (!given) {
-      CHECK(strip.at(450, 0, strip.slope(450)).stage == LandingStage::join);  // nobody knows where it is
+      CHECK(strip.at(450, 0, strip.slope(450)).stage == LandingStage::join);  // unknown position
       CHECK(strip.bench.step(0.01) == Status::degraded);
       CHECK(strip.bench.out.command.course_rad == strip.s.course_rad);
       CHECK(strip.bench.out.command.height_m == strip.s.height_m);

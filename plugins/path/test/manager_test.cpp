@@ -166,7 +166,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a way to the plan that is not followed is drawn anew from where the aircraft is") {
-  // an aircraft that flies straight on after take-off, whatever guidance says
+  // an aircraft that flies straight on after take-off, for any guidance
   Bench<Manager> manager;
   manager.set(manager.in.plan, hourglass());
   Kinematic aircraft;

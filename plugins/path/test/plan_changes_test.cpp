@@ -34,7 +34,7 @@ TEST_CASE("a detour that is put in and taken out again does not keep the circuit
   CHECK(flight.progress().item == 2);
   flight.passed.clear();
   CHECK(flight.fly(400, [&] { return flight.progress().circuits == 1; }));
-  // The order to fly to the detour began the circuit anew, and the waypoint where it did is gone.
+  // The jump to the detour restarted the circuit, and the waypoint at its begin is gone.
   CHECK(flight.passed == std::vector<std::uint32_t>{2, 3, 0, 1, 2});
   CHECK(flight.fly(400, [&] { return flight.progress().circuits == 2; }));
   CHECK(flight.passed.size() == 9);

@@ -28,7 +28,7 @@ PlanEdit of_group(PlanEdit e, std::uint32_t group, std::uint32_t size) {
   return e;
 }
 
-/// A planner with waypoints at 0, 300 and 600 m north, whose first plan is out.
+/// A planner with waypoints at 0, 300 and 600 m north, whose first plan is published.
 struct Desk {
   Bench<Planner> bench;
   Plan plan;
@@ -114,7 +114,7 @@ TEST_CASE(
         "path.edit_refused_again(7, path.waypoint_index_unknown(9, 2), 49)");
   CHECK(desk.bench.out.refused_ratio.value == 51);
   desk.push(of_group(edit(PlanEditKind::append, 0, 900), 3, 0));
-  REQUIRE(desk.bench.out.notices.count == 1);  // another reason is told at once
+  REQUIRE(desk.bench.out.notices.count == 1);  // another reason is reported at once
   CHECK(desk.bench.out.notices.items[0].text == "path.edit_without_id_refused(path.group_size_missing)");
 }
 

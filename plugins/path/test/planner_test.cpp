@@ -215,7 +215,8 @@ TEST_CASE("a bad edit is refused with its reason and changes nothing") {
   PlanEdit frame = edit(PlanEditKind::append, 0, 900, 0);
   frame.waypoint.frame = static_cast<WaypointFrame>(77);
   refused(frame, "path.waypoint_frame_unknown");
-  CHECK(ask(bench, edit(PlanEditKind::replace, 1, 300, 101)) == "accepted");  // near itself is no fault
+  // a place near its former one is valid
+  CHECK(ask(bench, edit(PlanEditKind::replace, 1, 300, 101)) == "accepted");
 }
 
 TEST_CASE("a plan holds 1024 waypoints and refuses one more") {
@@ -336,13 +337,13 @@ TEST_CASE("a waypoint in the ground is refused, in a file, in an edit, and when 
   bench.params.plan.value.waypoints[1].up_m = -70;
   CHECK(bench.configure() == Status::failed);
   CHECK(bench.error() == "plan.waypoints[1]: path.waypoint_low(-70.0, 1)");
-  bench.params.lowest.value = -100;  // beside a cliff
+  bench.params.lowest.value = -100;  // next to a cliff
   CHECK(bench.configure() == Status::ok);
 
   Bench<Planner> air;
   three_waypoints(air);
   REQUIRE(air.configure() == Status::ok);
-  air.push(air.in.edit, PlanEdit{});  // an append that says no place
+  air.push(air.in.edit, PlanEdit{});  // an append without a place
   air.step(0.01);
   CHECK(air.answer(air.in.edit, 0) == "path.waypoint_low(0.0, 1)");
   CHECK(air.out.plan.value.waypoints.count == 3);
@@ -350,7 +351,7 @@ TEST_CASE("a waypoint in the ground is refused, in a file, in an edit, and when 
   Bench<Planner> map;
   map.params.plan.value.waypoints.push_back(geodetic(40.25, -111.65, 1457));
   map.params.plan.value.waypoints.push_back(geodetic(40.26, -111.65, 1357));
-  REQUIRE(map.configure() == Status::ok);  // above what is not known yet
+  REQUIRE(map.configure() == Status::ok);  // above an unknown origin
   VehicleState state;
   state.origin_latitude_deg = 40.2463724;
   state.origin_longitude_deg = -111.6474138;

@@ -225,7 +225,7 @@ TEST_CASE(
     for (int k = 0; k < 20; ++k) look(100, 0.1);
     CHECK(l.out.command.climb_rate_mps == 2);
     CHECK(l.out.command.airspeed_mps == test::anaconda().limits.airspeed_cruise_mps);
-    CHECK(l.out.progress.laps_ratio == Approx(1.9 / (2 * pi)));  // the first look has nothing before it
+    CHECK(l.out.progress.laps_ratio == Approx(1.9 / (2 * pi)));  // the first step has no step before it
     CHECK(std::abs(l.out.progress.cross_m) < 1e-9);
     CHECK(l.out.progress.height_error_m == Approx(-7));
     CHECK_FALSE(l.out.progress.there);

@@ -145,7 +145,7 @@ TEST_CASE("the fed-forward bank alone holds a circle over the ground in wind") {
       VehicleState s = at(n, e, std::atan2(ve, vn), std::hypot(vn, ve));
       s.yaw_rad = wrap_pi(psi);
       const double phi = command(bench, s, orbit(turn, R)).roll_feedforward_rad;
-      psi += dt * 9.80665 / Va * std::tan(phi);  // coordinated turn, B&M (9.13): knows nothing of the ground
+      psi += dt * 9.80665 / Va * std::tan(phi);  // coordinated turn, B&M (9.13): independent of the ground
       n += dt * vn;
       e += dt * ve;
       worst = std::max(worst, std::abs(std::hypot(n, e) - R));
@@ -253,7 +253,7 @@ TEST_CASE("each outage has the whole time, and the larger of the two deviations 
     s.position_std_m = {north_std, east_std, 5};
     return reckoning.located(s, static_cast<std::int64_t>(now_s) * second, 50, 115);
   };
-  CHECK_FALSE(located(0, false, 1, 1));  // never known
+  CHECK_FALSE(located(0, false, 1, 1));  // never valid
   CHECK(located(10, true, 1, 1));
   CHECK(located(20, false, 1, 1));
   CHECK(located(134, false, 1, 1));
@@ -318,7 +318,7 @@ TEST_CASE("on a curve its own course, height, climb and bank are commanded, besi
     CHECK(command(bench, at(here.north - 3 * north, here.east - 3 * east, course, Vg), path).course_rad >
           course);
   }
-  Path end;  // the bank of what comes next is commanded before the end
+  Path end;  // the bank of the next piece is commanded before the end
   end.next_curvature_ratio = -0.01;
   set_curve(end, curve, 0.999);
   const Vec3<Ned> here = curve.point(0.999);

@@ -14,7 +14,7 @@ using path::Loiter;
 
 namespace {
 
-/// An aircraft that flies the course and the climb that it is told, in no time, at 20 m/s.
+/// An aircraft that follows course and climb at once, at 20 m/s.
 struct Point {
   Bench<Loiter> bench;
   VehicleState s;
@@ -103,7 +103,7 @@ TEST_CASE("up and down the height that is asked for goes by its rate, and says w
     CHECK(p.bench.out.command.height_m == doctest::Approx(height));
     CHECK(p.bench.out.command.climb_rate_mps == 0);
     CHECK(p.bench.out.progress.there);
-    // Who takes over again begins with the height that it has.
+    // A second activation begins with the present height.
     p.bench.params.height.value = -1;
     p.bench.retune();
     p.s.height_m = 44;

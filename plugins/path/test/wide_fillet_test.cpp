@@ -97,7 +97,7 @@ TEST_CASE("a wide corner is tangent to the same legs, and the widest is what fit
   CHECK(planned.widest_fillet_m(1) == doctest::Approx(450));
   CHECK(route.widest_fillet_m(2) == doctest::Approx(420));
   CHECK(planned.widest_fillet_m(0) == planned.widest_fillet_m(2));
-  // both legs are one line to who flies them: each ends where the next begins, in the same course
+  // both legs are one line: each ends where the next begins, with the same course
   for (std::uint32_t i = 0; i < 4; ++i) {
     const RouteLeg leg = route.leg(i), next = route.leg((i + 1) % 4);
     CHECK(leg.end.north_m == doctest::Approx(next[0].pose_at(0).north_m));

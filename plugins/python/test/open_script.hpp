@@ -91,7 +91,7 @@ class Law {
     return 0;
   }
 
-  /// Shows a sample at a value input; what is pointed to must stay.
+  /// Provides a sample at a value input; its memory must stay valid.
   template <class T>
   void show(const std::string& name, const T& sample, std::uint64_t sequence = 1) {
     fulmar_input& in = inputs[input(name)];

@@ -19,7 +19,7 @@ namespace {
 
 enum class Shape : std::uint8_t { sine, square };
 
-/// The message that the script below declares: the C++ compiler says what its table must be.
+/// The message of the script below: the C++ compiler gives the expected table.
 struct Wobble {
   float amplitude_rad = 0.5f;
   bool on = true;
@@ -193,7 +193,7 @@ TEST_CASE("a module beside the script is found, and imported anew when it has ch
 
 TEST_CASE("a thousand scripts opened and closed leave nothing open") {
   const std::string text = with_ports("s = f.In('Imu')");
-  for (int i = 0; i < 1000; ++i) REQUIRE(refusal(text) == "opened");  // more than there is room for at once
+  for (int i = 0; i < 1000; ++i) REQUIRE(refusal(text) == "opened");  // more than may be open at once
 }
 
 TEST_CASE("several classes of a file are several components, in their order; helpers are none") {

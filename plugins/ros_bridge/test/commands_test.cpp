@@ -69,7 +69,7 @@ TEST_CASE(
   bench.params.use_heading.value = true;
   bench.push(bench.in.goal, goal(30, 400, 0));
   bench.step(0.02);
-  CHECK(bench.out.edits.count == 0);  // nobody knows the height yet
+  CHECK(bench.out.edits.count == 0);  // the height is unknown
   CHECK(bench.out.refused_ratio.value == 1);
   bench.set(bench.in.state, cruising());
   RosPoseStamped west = goal(30, 400, 0);

@@ -131,7 +131,7 @@ TEST_CASE("without a place of its own the aircraft is on the map where its recei
   REQUIRE(bench.out.fix.written);
   CHECK(bench.out.fix.value.latitude == 47);
   CHECK(bench.out.fix.value.status.status == 0);
-  bench.set(bench.in.state, at(0, 0, 80));  // both: what is estimated
+  bench.set(bench.in.state, at(0, 0, 80));  // both from the estimate
   bench.set(bench.in.gnss, gnss);
   bench.step(0.1);
   CHECK(bench.out.fix.value.latitude == doctest::Approx(40));
@@ -172,7 +172,7 @@ TEST_CASE("a circuit is drawn with its fillets, closed, at the heights of its le
   CHECK(nearest == doctest::Approx(50 * (std::sqrt(2) - 1)).epsilon(1e-6));  // the middle of the fillet
   CHECK(lowest == doctest::Approx(70));
   CHECK(highest == doctest::Approx(90));
-  // poses look along the way: a heading in the middle of the leg north is that of the tangent
+  // poses point along the route: a heading in the middle of the leg north is that of the tangent
   for (std::uint32_t i = 1; i + 1 < poses.count; ++i) {
     const RosPoint &p = poses[i - 1].pose.position, &q = poses[i + 1].pose.position;
     double course = 0;
@@ -229,7 +229,7 @@ TEST_CASE("route and markers are told when the plan changes, and once a minute")
   int again = 0;
   for (int i = 0; i < 598; ++i) {
     plan.revision++;
-    plan.jumps++;  // what is drawn is the same
+    plan.jumps++;  // the drawn parts are the same
     bench.set(bench.in.plan, plan);
     bench.step(0.1);
     again += bench.out.route.written || bench.out.markers.written;

@@ -247,7 +247,7 @@ TEST_CASE("a chunk that is damaged, or is not as long as it says, is refused, no
   const std::uint32_t checksum = checksum_of(records);
   const std::string packed = packed_zstd(records);
   CHECK(said(records.size(), checksum, "zstd", packed) == "");
-  CHECK(said(records.size(), 0, "zstd", packed) == "");  // 0: nobody has computed one
+  CHECK(said(records.size(), 0, "zstd", packed) == "");  // 0: not computed
   for (const char* name : {"", "zstd"}) {
     const bool zstd = *name != '\0';
     CHECK(said(records.size(), checksum ^ 1, name, zstd ? packed : records)

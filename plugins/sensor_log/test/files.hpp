@@ -72,7 +72,7 @@ inline std::uint32_t checksum_of(const std::string& bytes) {
     }
   return ~crc;
 }
-/// `told`: the frame says how long its content is.
+/// `told`: the frame contains the length of its content.
 inline std::string packed_zstd(const std::string& plain, bool reported = true) {
   std::string packed(ZSTD_compressBound(plain.size()), '\0');
   ZSTD_CCtx* const context = ZSTD_createCCtx();
@@ -81,7 +81,7 @@ inline std::string packed_zstd(const std::string& plain, bool reported = true) {
   ZSTD_freeCCtx(context);
   return packed;
 }
-/// A chunk of `size` bytes as it says itself, packed as `name` says.
+/// A chunk of stated size `size`, compressed by `name`.
 inline std::string mcap_chunk_of(std::uint64_t size, std::uint32_t checksum, const std::string& name,
                                  const std::string& packed) {
   return record(6, raw(std::uint64_t{0}) + raw(std::uint64_t{1} << 62) + raw(size) + raw(checksum) +
@@ -231,7 +231,7 @@ inline std::string ulog() {
                          raw(std::uint32_t{4000}) + raw(std::int32_t{0}) + raw(k) + raw(2 * k) + raw(-9.75F));
   }
   const std::uint64_t t = 1'005'000;
-  file += ulog_record('O', raw(std::uint16_t{12}));  // a dropout of 12 ms, as the logger says it
+  file += ulog_record('O', raw(std::uint16_t{12}));  // a dropout of 12 ms, reported by the logger
   file += ulog_data(8, raw(t) + raw(1300.F) + raw(86'000.5F));
   file += ulog_data(3, raw(t) + raw(245.F));
   file += ulog_data(4, raw(t) + raw(0.2F) + raw(-0.01F) + raw(0.45F));

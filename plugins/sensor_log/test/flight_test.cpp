@@ -27,7 +27,7 @@ struct Said {
   std::string out;
 };
 
-/// What the program says, its complaints included unless `2>...` sends them elsewhere.
+/// Output of the program, with its error messages unless `2>...` redirects them.
 Said fulmar_says(const std::string& arguments) {
   FILE* pipe = popen((FULMAR_BIN_DIR "/fulmar " + arguments).c_str(), "r");
   REQUIRE(pipe != nullptr);
@@ -38,7 +38,7 @@ Said fulmar_says(const std::string& arguments) {
   return said;
 }
 
-/// A mission with the description `yaml`, its file log.yaml beside it. 100 Hz.
+/// A mission with the description `yaml` in log.yaml in its folder. 100 Hz.
 std::string mission_of(const Folder& folder, const std::string& yaml) {
   folder.write("log.yaml", yaml);
   return folder.write(
@@ -69,7 +69,7 @@ std::string with(const std::string& old, const std::string& now) {
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-/// What `check` says of a description.
+/// Output of `check` for a description.
 std::string refusal(const Folder& folder, const std::string& yaml) {
   const Said said = fulmar_says("check " + mission_of(folder, yaml) + " 2>&1");
   CHECK(said.code == 4);

@@ -172,8 +172,8 @@ TEST_CASE("units and axes of a fix") {
   CHECK(fix.velocity_mps.north == Approx(20).epsilon(1e-12));
   CHECK(fix.velocity_mps.east == Approx(10).epsilon(1e-12));
   CHECK(fix.velocity_mps.down == Approx(5).epsilon(1e-12));
-  CHECK(fix.fix == FixType::fix_3d);           // no column says otherwise
-  CHECK(fix.horizontal_std_m == unknown_std);  // nor does one say how good it is
+  CHECK(fix.fix == FixType::fix_3d);           // the default without a column
+  CHECK(fix.horizontal_std_m == unknown_std);  // nor a standard deviation
   d.gnss.velocity.unit = SpeedUnit::kt;
   CHECK(gnss(d, ",e,n,u", "0,-379596764,1447648038,15780,36,72,-18\n").gnss[0].value.velocity_mps.north ==
         Approx(37.04).epsilon(1e-4));  // 1 kt = 1.852 km/h
@@ -232,8 +232,8 @@ TEST_CASE(
                "106,5,0,0,0,0,0\n");
   folder.write("mag.csv", "t,x,y,z\n5.0041,1,0,0\n5.005,2,0,0\n5.050,3,0,0\n5.060,4,0,0\n5.107,5,0,0\n");
   const Flown f = fly(d, folder);
-  // 5.005 takes the second magnetic sample; the first had to be shown before it. So is 5.050 before 5.060, in
-  // a tick of its own; behind the last inertial sample there is one, too.
+  // 5.005 takes the second magnetic sample; the first had to be published before it. Likewise 5.050 before
+  // 5.060, in a separate tick. After the last inertial sample there is one, too.
   CHECK(f.ticks_ns == std::vector<std::int64_t>{0, 4'000'000, 4'100'000, 5'000'000, 50'000'000, 105'000'000,
                                                 106'000'000, 107'000'000});
   REQUIRE(f.imu.size() == 5);
@@ -301,7 +301,7 @@ TEST_CASE(
   for (std::size_t i = 0; i < 6; ++i) {
     CHECK(f.status[i].armed == armed[i]);
     CHECK(f.status[i].on_ground == ground[i]);
-    CHECK(f.status[i].override);  // it obeys nobody
+    CHECK(f.status[i].override);  // commands have no effect
     CHECK_FALSE(f.status[i].in_control);
   }
   Description g = gnss_alone();

@@ -51,7 +51,7 @@ struct Flown {
   std::vector<VehicleStatus> status;
   std::vector<std::string> notices;
   Recording last;
-  std::string fault;  ///< why it did not begin, or what was no number
+  std::string fault;  ///< reason for a failed start, or a value that is not finite
 };
 
 inline Flown fly(const Description& description, const Folder& folder) {

@@ -168,7 +168,7 @@ bool same(const Input& a, const Input& b) {
   return true;
 }
 
-/// Refused, or right, or told: nothing of a supplement is used, or it is doubted.
+/// Rejected, correct, or reported: a supplement is not used, or a warning is given.
 template <class Make, class Whole>
 void refused_or_right(const std::string& what, const Make& make, const Whole& right, int& refused) {
   auto part = right;
@@ -264,7 +264,7 @@ TEST_CASE("JSBSim's tables over states are the airframe's, by their units and th
   CHECK(two.oswald.x > 1e5);
   const fulmar::aero::AirframeFile flown = written(two, {}, "gull.yaml").file;
   CHECK(flown.airframe.wing.oswald_ratio > 1e5);
-  // the square of the lift tells Oswald's factor: K = 1 / (pi e AR)
+  // the square of the lift gives Oswald's factor: K = 1 / (pi e AR)
   const std::string squared =
       with(jsbsim_text(), "<axis name=\"DRAG\">",
            "<axis name=\"DRAG\"><function "
@@ -321,7 +321,7 @@ TEST_CASE("AVL's machine-readable form and SM are the same aircraft, with the li
                      {with(tern_text("tern_mrf.st"), "   3  | # control", " " + count + "  | # control")});
                }),
                "aero.count_out_of_range(" + count + ")"));
-  // a version between the two: nothing says about which axes Cld and Cnd are
+  // an intermediate version: the axes of Cld and Cnd are unknown
   std::string between;
   std::istringstream in(tern_text("tern_new.st"));
   for (std::string line; std::getline(in, line);)

@@ -69,7 +69,7 @@ inline Aircraft aircraft(const std::vector<std::string>& texts, const ImportOpti
   return aircraft_of(inputs, options);
 }
 
-/// The sentence with which it is refused, "" when it is not.
+/// The message of the rejection, "" for none.
 template <class F>
 std::string refusal(const F& read) {
   try {

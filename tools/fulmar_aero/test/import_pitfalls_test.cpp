@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What goes wrong when derivatives are copied by hand, one test each, and files that are broken.
+// Errors of derivatives that are copied by hand, one test each, and damaged files.
 #include "tools/fulmar_aero/import/rosflight.hpp"
 #include "tools/fulmar_aero/test/import_kit.hpp"
 
@@ -116,12 +116,12 @@ TEST_CASE("10: a group belongs to its row, whatever its name; halves of pairs ar
   text = with(text, "@@@@@@@ ", "ELEVATOR");
   CHECK(says(refusal([&] { aircraft({text}); }),
              "aero.control_ineffective(Cl, 0, aero.control_column_swapped(1.2))"));
-  // names that say nothing: by what they do
+  // names without information: roles by the response
   text = with(with(with(tern_text("tern.stab"), "AILERON ", "ONE     "), "ELEVATOR GROUP", "A 2 deg group "),
               "RUDDER ", "THREE  ");
   is_tern(aircraft({text}), 1e-6);
 
-  // a slat beside a named elevator is no second elevator
+  // a slat with a named elevator is no second elevator
   const Aircraft slat = aircraft({with(tern_text("tern.stab"), "RUDDER ", "SLAT   ")});
   CHECK(slat.c[pitch][t_elevator].x == Approx(-1.2));
   Control more;
@@ -240,7 +240,7 @@ TEST_CASE(
                               "Type 1 - Fixed speed")});
              }),
              "aero.log_type_mismatch(Type 1 - Fixed speed polar)"));
-  // the same group twice: the first counts, and a difference is told
+  // the same group twice: the first counts, and a difference is reported
   const Aircraft twice = aircraft({log, with(log, "CLde=", "CLde= 1")});
   CHECK(says(twice.notes, "the first is taken"));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `fulmar aero import` as people run it: the airframe file, the eigenvalues beside the log's, exit codes; and
-// the files and conversions of the shared reference data, where they are.
+// `fulmar aero import` as a user runs it: the airframe file, the eigenvalues compared with the log's, exit
+// codes; and the files and conversions of the shared reference data, if present.
 #include <nlohmann/json.hpp>
 
 #include "tools/fulmar_aero/import/compare_modes.hpp"
@@ -21,7 +21,7 @@ const std::vector<std::string> logs{tern_folder + "tern_e.log", tern_folder + "t
                                     tern_folder + "tern_r.log"};
 const std::string log_words = logs[0] + " " + logs[1] + " " + logs[2];
 
-/// Kept beside the source tree, not in it.
+/// Stored next to the source tree, not in it.
 std::string shared(const std::string& name) {
   const char* const folder = std::getenv("FULMAR_AERO_DATA");
   const std::string path =
@@ -300,7 +300,7 @@ TEST_CASE("ROSflight's hand-copied files: what is wrong in each is found" * doct
         "aero.derivative_sign_wrong(CY_dr, -0.228, positive, ", "aero.zero_lift_unusual(0.602, "})
     CHECK_MESSAGE(xflr5.says(words), words, xflr5.out);
   CHECK(xflr5.code == 1);
-  // a dihedral effect near 0 is told; it is no fault, and the set is imported as it is
+  // a dihedral effect near 0 is reported; it is no fault, and the set is imported unchanged
   const Folder folder;
   const Answer openvsp = call("import " + shared("ros_params/openvsp_anaconda_dynamics.yaml") + " -o " +
                               (folder.path / "a.yaml").string());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// JSBSim's moments about the centre of gravity, beside forces and arms multiplied out.
+// JSBSim's moments about the centre of gravity, compared with products of forces and arms.
 #include <doctest/doctest.h>
 
 #include <cmath>

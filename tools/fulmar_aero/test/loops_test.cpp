@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Margins that are told, against flights of the shipped inner law around the linear aircraft, step by step in
-// time: with the aileron's gain a little inside of a margin it settles, a little outside it grows.
+// Reported margins against flights of the shipped inner law around the linear aircraft, step by step in time:
+// with the aileron's gain slightly inside a margin it settles, slightly outside it grows.
 #include "tools/fulmar_aero/loops.hpp"
 
 #include <doctest/doctest.h>

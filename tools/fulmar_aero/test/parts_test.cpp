@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `fulmar aero` on servos, propellers, battery and gear, and what it refuses of them with its line.
+// `fulmar aero` on servos, propellers, battery and gear, and rejected values with their lines.
 #include "tools/fulmar_aero/test/aero_kit.hpp"
 
 namespace parts_test {
@@ -11,7 +11,7 @@ namespace {
 
 const char* const gear = "gear:";
 
-/// The Anaconda with another surface, propulsion or gear; what `check` says of it.
+/// The Anaconda with another surface, propulsion or gear; the output of `check`.
 Answer checked(const std::string& old, const std::string& by, const std::string& words = "") {
   const Folder folder;
   return call("check " + words + folder.write("a.yaml", changed("anaconda", old, by)));

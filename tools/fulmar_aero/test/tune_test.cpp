@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `fulmar aero tune`: what it tells, writes, flies and refuses.
+// `fulmar aero tune`: its reports, files, flights and rejections.
 #include <cmath>
 #include <map>
 
@@ -99,7 +99,7 @@ TEST_CASE("delay takes phase, and bandwidth where nothing was asked for" * docte
   CHECK(phase(now) - phase(late) == Approx(0.04).epsilon(0.25).scale(0));
   CHECK(late["gains"]["control_slc/Inner"]["pitch_kp"]["computed"].get<double>() <
         0.5 * now["gains"]["control_slc/Inner"]["pitch_kp"]["computed"].get<double>());
-  // the lag that was assumed is told
+  // the assumed lag is reported
   CHECK(call("tune " + file + " --delay '40 ms' --step '20 ms'")
             .says("aero.tuning_assumptions(20 ms, 40 ms, 60 ms, 60 ms, 100 ms)\n"));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `fulmar aero`, as a user calls it: words, exit codes, JSON.
+// `fulmar aero` as a user calls it: messages, exit codes, JSON.
 #include <map>
 
 #include "tools/fulmar_aero/test/aero_kit.hpp"

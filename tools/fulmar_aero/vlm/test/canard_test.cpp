@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Controls ahead of the centre of gravity have the sign of what they do.
+// Controls ahead of the centre of gravity have the sign of their effect.
 #include "tools/fulmar_aero/airframe_file.hpp"
 #include "tools/fulmar_aero/test/aero_kit.hpp"
 

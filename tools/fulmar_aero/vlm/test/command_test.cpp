@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `fulmar aero vlm`: drawings, what is refused, files of AVL and XFLR5, and the Petrel in the air.
+// `fulmar aero vlm`: drawings, rejections, files of AVL and XFLR5, and the Petrel in flight.
 #include "tools/fulmar_aero/airframe_file.hpp"
 #include "tools/fulmar_aero/test/aero_kit.hpp"
 #include "tools/fulmar_aero/vlm/aircraft.hpp"

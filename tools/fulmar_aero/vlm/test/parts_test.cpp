@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stands beside the lattice: sections, masses, skin, bodies, propellers.
+// Parts outside the lattice: sections, masses, skin, bodies, propellers.
 #include "tools/fulmar_aero/vlm/parts.hpp"
 
 #include <cmath>

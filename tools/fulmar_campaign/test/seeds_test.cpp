@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The seeds of a campaign, and what its flights have in common.
+// The seeds of a campaign, and the statistics of its flights.
 #include "tools/fulmar_campaign/seeds.hpp"
 
 #include <doctest/doctest.h>

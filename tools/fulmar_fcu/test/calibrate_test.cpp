@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A calibration that fails leaves the controller as it was, or says what it was.
+// A failed calibration leaves the controller unchanged, or reports its former values.
 #include "tools/fulmar_fcu/calibrate.hpp"
 
 #include <doctest/doctest.h>
@@ -21,7 +21,7 @@ using peer::param;
 
 constexpr std::array<float, 3> accel_bias{-0.037f, -0.089f, -0.074f}, gyro_bias{0.008f, -0.002f, 0.001f};
 
-/// A calibrated controller, and somebody who shakes it.
+/// A calibrated controller that is shaken.
 struct Shaken : Bench {
   bool shaking = true;
   Shaken() {
@@ -62,7 +62,7 @@ TEST_CASE(
   CHECK(result.says("fcu.calibration_failed(imu, Too much movement for IMU cal, "));
   CHECK(result.says(", fcu.values_restored)"));
   CHECK(bench.as_before());
-  bench.idle(5'000'000);  // nothing of the calibration comes after it
+  bench.idle(5'000'000);  // no message of the calibration follows
   CHECK(bench.as_before());
   bench.shaking = false;
   const Captured again = bench.calibrate("imu");
@@ -110,7 +110,7 @@ TEST_CASE("a refused calibration changes nothing and promises nothing") {
   CHECK(bench.as_before());
 }
 
-/// A controller that zeroes barometer and airspeed by itself while something else is calibrated.
+/// A controller that zeroes barometer and airspeed while another calibration runs.
 Captured just_booted(Bench& bench, std::int64_t up_us, const char* what) {
   bench.firmware.provision();
   bench.idle(up_us);
@@ -133,7 +133,8 @@ TEST_CASE("the end of another calibration, good or bad, is not taken for the end
   windy.firmware.before_imu = [&] {
     windy.firmware.inputs.baro_pa = 85700 + 20 * std::sin(3e-6 * static_cast<double>(windy.now_us));
   };
-  const Captured imu = just_booted(windy, 8'000'000, "imu");  // the barometer's failure is told after 10.2 s
+  // the barometer's failure is reported after 10.2 s
+  const Captured imu = just_booted(windy, 8'000'000, "imu");
   CHECK(imu.code == 0);
   CHECK(imu.complaint == "");
 }

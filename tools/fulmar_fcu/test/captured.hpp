@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs a command and keeps what it printed, its exit code, and its complaint.
+// Runs a command and keeps its output, its exit code, and its error.
 #pragma once
 #include <unistd.h>
 

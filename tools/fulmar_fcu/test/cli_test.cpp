@@ -103,8 +103,7 @@ TEST_CASE("a reboot that unplugs the device, as USB does, is seen through to its
     firmware.provision(testing::wall_us());
     boots = firmware.boots();
   });
-  testing::pause_us(
-      3000000);  // it has been up for longer than it will be unplugged: by that a restart is told
+  testing::pause_us(3000000);  // it has been up for longer than it will be unplugged, which shows the restart
   const Run reboot("--port " + device.name() + " reboot");
   CAPTURE(reboot.out);
   CHECK(reboot.code == 0);

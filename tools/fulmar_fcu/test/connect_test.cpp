@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The first seconds with a device: what it is, and what it is not.
+// The first seconds with a device: its recognition.
 #include <doctest/doctest.h>
 
 #include <cmath>

@@ -21,7 +21,7 @@ using fulmar::fcu::test::with_eigen;
 
 constexpr double field = 48e-6;  // tesla
 
-/// What a distorted sensor reads: the firmware undoes it by A (m - b).
+/// The reading of a distorted sensor: the firmware corrects it by A (m - b).
 struct Sensor {
   Vector3d b{12e-6, -31e-6, 7e-6};
   Matrix3d A;

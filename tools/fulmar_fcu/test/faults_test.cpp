@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every command against a link that refuses, delays, drops, duplicates and corrupts: it succeeds, and what it
-// claims is so; or it says in one sentence that it did not. It never hangs.
+// Every command with a link that rejects, delays, drops, duplicates and corrupts: it succeeds, and its report
+// is correct; or it reports its failure in one sentence. It never hangs.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -37,7 +37,7 @@ const std::vector<Named> all_faults{{"none", {}},
                                     {"refuses", {0, 0, 0, 0, true}},
                                     {"is deaf", {0, 0, 0, 0, false, true}}};
 
-/// A command, and whether the controller has become what a success claims.
+/// A command, and the required state of the controller after a success.
 struct Case {
   const char* name;
   std::function<int(Client&)> run;

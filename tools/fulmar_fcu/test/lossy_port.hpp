@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A flight controller in virtual time behind a port that refuses, delays, drops, duplicates and corrupts what
-// goes through it.
+// A flight controller in virtual time behind a port that rejects, delays, drops, duplicates and corrupts
+// frames.
 #pragma once
 #include <deque>
 #include <memory>
@@ -32,7 +32,7 @@ class Bench {
 
   Endpoint endpoint();
   Client client() { return Client(endpoint()); }
-  /// Lets time pass with nobody at the port.
+  /// Advances the time without a client.
   void idle(std::int64_t us) {
     for (const std::int64_t until = now_us + us; now_us < until; now_us += 500) firmware.run(now_us);
     firmware.take();

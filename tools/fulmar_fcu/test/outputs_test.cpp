@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What moves on the ground, and the magnetometer from samples to parameters.
+// Movement of outputs on the ground, and the magnetometer from samples to parameters.
 #include <doctest/doctest.h>
 
 #include <cmath>

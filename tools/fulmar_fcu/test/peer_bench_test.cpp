@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `fulmar fcu bench` on the peer, as two programs with a pseudo-terminal in between: what its file states is
-// what the peer was asked for.
+// `fulmar fcu bench` with the peer, as two programs with a pseudo-terminal in between: its file holds the
+// properties of the peer.
 #include <doctest/doctest.h>
 
 #include <nlohmann/json.hpp>
@@ -26,7 +26,7 @@ nlohmann::json measured(const std::vector<std::string>& options, const std::stri
                                  "--seed",
                                  "5",
                                  "--wind",
-                                 "0",  // no gust on the tube of an aircraft that stands
+                                 "0",  // no gust on the pitot of a standing aircraft
                                  "0",
                                  "0",
                                  "--turbulence",
@@ -48,7 +48,7 @@ nlohmann::json measured(const std::vector<std::string>& options, const std::stri
 double rate_hz(const nlohmann::json& report, const char* stream) {
   return report.at("streams").at(stream).at("rate_hz").get<double>();
 }
-/// Seconds of the controller's clock per second of the report: below 1 where the machine held the peer up.
+/// Seconds of the controller's clock per second of the report: below 1 when the machine delayed the peer.
 double pace(const nlohmann::json& report, double imu_hz, double seconds) {
   const double came = report.at("noise").at("accel_x_mps2").at("samples");
   return (came + report.at("link").at("imu_lost").get<double>()) / (imu_hz * seconds);
@@ -75,7 +75,7 @@ TEST_CASE("rates, noise and delay in the report's file are those of the peer") {
   CHECK(rate_hz(r, "barometer") == doctest::Approx(50 * ran).epsilon(0.05));
   CHECK(rate_hz(r, "pitot") == doctest::Approx(100 * ran).epsilon(0.05));
   CHECK(r.at("streams").at("magnetometer").is_null());
-  // What rosflight_sim says of its sensors, white: 0.2 m/s2, 4 Pa, 1.15 Pa.
+  // White noise of rosflight_sim's sensors: 0.2 m/s2, 4 Pa, 1.15 Pa.
   CHECK(std_of(r, "accel_x_mps2") == doctest::Approx(0.2).epsilon(0.15));
   CHECK(std_of(r, "accel_z_mps2") == doctest::Approx(0.2).epsilon(0.15));
   CHECK(std_of(r, "barometer_pa") == doctest::Approx(4).epsilon(0.3));

@@ -90,7 +90,7 @@ TEST_CASE("each thing that is wrong is told, with its parameter") {
   CHECK(fails(with([](Facts& f) { f.attitude->rollspeed = std::nanf(""); }), "attitude"));
   CHECK(fails(param_is("RC_F_AXIS", 2), "fcu.throttle_axis_invalid(2)"));
   CHECK(fails(param_is("PRIMARY_MIXER", 255), "fcu.mixer_missing(255)"));
-  CHECK_FALSE(warns(with([](Facts& f) {  // one word is enough: there is no mixer, so no surface follows
+  CHECK_FALSE(warns(with([](Facts& f) {  // one message is enough: without a mixer no surface follows
                       for (Param& p : f.params)
                         if (p.name.rfind("PRI_MIXER_", 0) == 0 || p.name.rfind("SEC_MIXER_", 0) == 0)
                           p.bits = 0;
@@ -171,7 +171,7 @@ TEST_CASE("three biases of exactly zero are a failed calibration, though the oth
   f = ready();
   set(f, "GYRO_X_BIAS", 0);
   CHECK(fails(f, "IMU: fcu.biases_zero(GYRO_X_BIAS, GYRO_Y_BIAS and GYRO_Z_BIAS): fcu.imu_not_calibrated"));
-  set(f, "ARM_CAL_GYRO", 1);  // it does that by itself, whenever it is armed
+  set(f, "ARM_CAL_GYRO", 1);  // the firmware does it at each arming
   CHECK_FALSE(fails(f, "IMU"));
 }
 

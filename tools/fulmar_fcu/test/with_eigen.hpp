@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The magnetometer's calibration with Eigen's types, which make short work of what a test expects.
+// The magnetometer's calibration with Eigen's types, for short tests.
 #pragma once
 #include <Eigen/Dense>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Advice on missions that can be flown: readers of a replaced component, ports that fit and are not wired.
+// Advice on valid missions: readers of a replaced component, ports of the same type without a connection.
 #include "tools/fulmar_inspect/advice.hpp"
 
 #include <doctest/doctest.h>

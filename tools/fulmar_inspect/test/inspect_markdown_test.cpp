@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The reference page of a plugin: complete, and a table stays a table whatever the author wrote.
+// The reference page of a plugin: complete, and a table stays a table for any text of the author.
 #include <doctest/doctest.h>
 
 #include <cstdio>

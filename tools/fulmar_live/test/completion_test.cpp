@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What shells offer at the end of a line.
+// Completions of shells at the end of a line.
 #include <algorithm>
 
 #include "core/log/test/log_kit.hpp"
@@ -8,7 +8,7 @@
 namespace remote_test {
 namespace {
 
-/// What bash offers at the end of a line.
+/// Completions of bash at the end of a line.
 std::vector<std::string> completed(const MockFlight& flight, const std::string& line) {
   const std::string script = "source <(" + program + " completion bash); COMP_LINE='" + line +
                              "'; COMP_POINT=${#COMP_LINE}; read -ra COMP_WORDS <<<\"$COMP_LINE\"; [[ "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The screen of `fulmar watch` from messages that are known.
+// The screen of `fulmar watch` from given messages.
 #include "tools/fulmar_live/dashboard.hpp"
 
 #include <doctest/doctest.h>
@@ -176,7 +176,7 @@ TEST_CASE("what is old or not valid is not shown as what is") {
   b.take("/nav/state", 86, blind);
   const std::string text = b.text(size(80, 24));
   CHECK(has(text, "height    -  "));
-  CHECK(has(text, "airspeed  16.1 m/s "));  // nobody has asked for anything these two seconds
+  CHECK(has(text, "airspeed  16.1 m/s "));  // without a command in the last two seconds
   CHECK(has(text, "estimator no position, height"));
   CHECK(has(text, "control   remote.vehicle_silent\n"));
   CHECK_FALSE(has(text, "123.4"));
@@ -271,7 +271,7 @@ TEST_CASE("no text of the flight commands the terminal") {
     for (const char* control : {"\x1b", "\x07", "\xc2\x9b", "\t"}) CHECK_FALSE(has(text, control));
   }
   CHECK(lines(b.text(size(800, 60))).size() ==
-        lines(board().text(size(800, 60))).size());  // no line of its own
+        lines(board().text(size(800, 60))).size());  // not a separate line
 }
 
 }  // namespace dashboard_test

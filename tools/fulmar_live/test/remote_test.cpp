@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The words for a running flight, as a user types them, against the live view of a mock flight at 400 Hz.
+// The subcommands for a running flight, as a user types them, with the live view of a mock flight at 400 Hz.
 #include <cstring>
 #include <nlohmann/json.hpp>
 
@@ -13,7 +13,7 @@ using nlohmann::json;
 
 namespace {
 
-/// A flight whose every name commands the terminal of who asks.
+/// A flight whose names contain terminal commands.
 struct HostileControl : test::MockControl {
   FlightView view() const override {
     FlightView v = MockControl::view();
@@ -302,7 +302,7 @@ TEST_CASE("requests, phases and swaps are asked for; a refusal is told and is ex
   CHECK(r.code == 1);
   CHECK(r.err == "remote.request_rejected(swap slc, mock.vehicle_armed)\n");
   CHECK(flight.heard("swap slc some.so"));
-  const Folder folder;  // what lies here by the name of a plugin is no file of it
+  const Folder folder;  // a file of that name in this folder is no plugin
   fs::create_directories(folder.path / "control_slc");
   std::ofstream(folder.path / "my.so") << "x";
   const auto swapped = [&](const std::string& word) {

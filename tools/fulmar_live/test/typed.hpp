@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mock flight at 400 Hz with a live view, and what its user types in a shell.
+// A mock flight at 400 Hz with a live view, and commands that its user types in a shell.
 #pragma once
 #include <doctest/doctest.h>
 #include <sys/wait.h>

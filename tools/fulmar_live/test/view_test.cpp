@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How viewers are told what to open: links and command lines, as their own pages write them.
+// Start of viewers: links and command lines, as documented by the viewers.
 #include "tools/fulmar_live/view.hpp"
 
 #include <doctest/doctest.h>

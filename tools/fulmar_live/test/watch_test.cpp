@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `fulmar watch` at a terminal, and where it writes to none, beside a mock flight in a process of its own.
+// `fulmar watch` at a terminal and without one, with a mock flight in a separate process.
 #include <doctest/doctest.h>
 #include <pty.h>
 #include <sys/wait.h>
@@ -21,7 +21,7 @@ using namespace fulmar::core;
 
 namespace {
 
-/// A mock flight that can be stopped like one whose computer hangs.
+/// A mock flight that can be stopped like one on a computer that hangs.
 class FlightProcess {
  public:
   explicit FlightProcess(std::uint16_t port = 0) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fulmar log compare: which logs, states and references it takes, and what it says when there are none.
+// fulmar log compare: its choice of logs, states and references, and its messages when there are none.
 #include "tools/fulmar_log/test/compare_kit.hpp"
 
 namespace compare_choice_test {
@@ -56,7 +56,7 @@ TEST_CASE("a log of an older layout is read as far as it goes; fields that mean 
     }
   }
   const json j = compared(log), first = j.at("errors").at("first").at("channels");
-  CHECK(first.at("position_north_m").at("mean") == 3);  // there is no flag that says it were not valid
+  CHECK(first.at("position_north_m").at("mean") == 3);  // no flag marks it as invalid
   CHECK(first.at("position_north_m").at("claimed").is_null());
   CHECK(j.at("errors").at("first").at("nees").is_null());
   CHECK(j.at("errors").at("second").at("channels").at("position_north_m").at("claimed") == 1);
@@ -162,7 +162,7 @@ TEST_CASE("a span of flight time; a log that was cut off is read up to there, an
   const std::string log = folder.path / "a.mcap", part = folder.path / "b.mcap.part";
   write_three(log, 1000, [](int i, VehicleState& first, VehicleState& second, VehicleState&) {
     second.position_m.north = i * 20 < 10'000 ? 1 : 3;
-    first.position_m.east = std::sin(i);  // that chunks cannot be compressed to nothing
+    first.position_m.east = std::sin(i);  // so that chunks cannot be compressed to nothing
   });
   const json whole = compared(log + " --from 12 --to 15");
   CHECK(whole.at("compared") == 151);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Logs that are written by hand, and what fulmar log compare says of them.
+// Logs written by hand, and the output of fulmar log compare for them.
 #pragma once
 #include <doctest/doctest.h>
 
@@ -56,7 +56,7 @@ class Log {
   std::map<std::string, std::uint16_t> channels_;
 };
 
-/// Valid throughout, with deviations that are known.
+/// Valid throughout, with given standard deviations.
 inline VehicleState state(double std = 1) {
   VehicleState s;
   s.origin_latitude_deg = 47;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fulmar log compare, of logs that are written by hand with errors that are known: the figures.
+// fulmar log compare for logs written by hand with given errors: the figures.
 #include <random>
 
 #include "tools/fulmar_log/test/compare_kit.hpp"
@@ -84,7 +84,7 @@ TEST_CASE("errors are the estimate's minus the truth, and what is claimed stands
   CHECK(second.at("channels").at("position_north_m").at("within_2") == 1);
   CHECK(first.at("channels").at("airspeed_mps").at("within_1") == 0.25);
   CHECK(first.at("channels").at("airspeed_mps").at("within_2") == 1);
-  CHECK(first.at("channels").at("wind_north_mps").at("claimed").is_null());  // nobody knows
+  CHECK(first.at("channels").at("wind_north_mps").at("claimed").is_null());  // unknown
   CHECK(first.at("channels").at("wind_north_mps").at("rms") == 0);
   CHECK(first.at("channels").at("gyro_bias_x_degps").at("within_1").is_null());
 }
@@ -334,7 +334,7 @@ TEST_CASE("without a truth the fixes judge, at the time for which they hold, wit
   CHECK(second.at("position_north_m").at("within_1") == 0);
   CHECK(second.at("position_north_m").at("within_2") == 1);
   CHECK(first.at("height_m").at("mean").get<double>() == doctest::Approx(2).epsilon(0.005));
-  CHECK(first.at("height_m").at("claimed").is_null());  // the receiver says nothing of it
+  CHECK(first.at("height_m").at("claimed").is_null());  // the receiver does not report it
   CHECK(first.at("velocity_north_mps").at("mean") == 0.5);
   CHECK_FALSE(first.contains("roll_deg"));
   CHECK(j.at("first").at("nees").is_null());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whatever the bytes of a log: info, export, recover and diff give a result or an error, and take no more
-// memory than a log may.
+// For any bytes of a log, info, export, recover and diff give a result or an error, within the limit of
+// memory.
 #include <doctest/doctest.h>
 
 #include <cstdlib>
@@ -45,7 +45,7 @@ std::string spoilt(std::string bytes, std::mt19937& random) {
   return bytes;
 }
 
-/// Without the checksums of chunks and attachments the content itself is what is read.
+/// Without the checksums of chunks and attachments the content itself is read.
 McapWriter::Options plain(const std::filesystem::path& file) {
   return {.file = file, .zstd_level = 0, .chunk_bytes = 3000};
 }
@@ -63,7 +63,7 @@ void attempt(F&& what) {
   }
 }
 
-/// Sets the checksum of every chunk to 0, "there is none".
+/// Sets the checksum of every chunk to 0, which means none.
 std::string without_sums(std::string bytes) {
   for (std::size_t at = 8; at + 9 <= bytes.size() - 8;) {
     std::uint64_t length = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Logs compared: equal ones, and each way in which two can differ.
+// Comparison of logs: equal ones, and each possible difference.
 #include "tools/fulmar_log/diff.hpp"
 
 #include <doctest/doctest.h>
@@ -105,7 +105,7 @@ TEST_CASE("a message more, a topic more, other metadata, another attachment: eac
   CHECK_FALSE(e.messages_equal());
   CHECK(e.only_b == std::vector<std::string>{"/y"});
   CHECK(e.only_a.empty());
-  CHECK_FALSE(e.first.has_value());  // what is in both is the same
+  CHECK_FALSE(e.first.has_value());  // the common part is the same
   CHECK(e.metadata == std::vector<std::string>{"run: seed is 8 and 7"});
   CHECK(e.attachments == std::vector<std::string>{"log_tool.attachment_differs(plan.yaml, 2)"});
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Logs exported and read back by small readers of the formats that know nothing of the writers.
+// Logs exported and read back by small readers of the formats that are independent of the writers.
 #include <doctest/doctest.h>
 #include <zlib.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads a figure as a reader does: axes by their numbers, curves by where they are drawn.
+// Reads a figure from its drawing: axes by their numbers, curves by their coordinates.
 #pragma once
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Figures for print: line styles, axes, and where names have little room.
+// Figures for print: line styles, axes, and names with little room.
 #include "tools/chart/figure.hpp"
 
 #include <doctest/doctest.h>

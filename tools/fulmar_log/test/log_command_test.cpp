@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fulmar log, as a user calls it: words, exit codes, JSON.
+// fulmar log as a user calls it: messages, exit codes, JSON.
 #include "tools/fulmar_log/log_command.hpp"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fulmar plot of logs: the figure is read back, and held against the log's export.
+// fulmar plot of logs: the figure is read back and compared with the log's export.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fulmar plot: what it refuses and with which words, a log that was cut off, completion, PNG.
+// fulmar plot: rejected commands and their messages, a log that was cut off, completion, PNG.
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A log to draw, and the figure that is drawn of it.
+// A log to plot, and its figure.
 #pragma once
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fulmar response: its figures against closed forms, and its words.
+// fulmar response: its figures against closed forms, and its messages.
 #include "tools/fulmar_log/response.hpp"
 
 #include <random>
@@ -58,7 +58,7 @@ TEST_CASE("a second-order system: overshoot and peak time in closed form, rise t
     REQUIRE(f.rise_s.has_value());
     CHECK(*f.rise_s * w == doctest::Approx(rise).epsilon(0.005));
     CHECK(f.steady_gain() == doctest::Approx(1).epsilon(0.002));
-    // 2 %: the closed form itself, from behind
+    // 2 %: the closed form itself, searched from the end
     double settled = end;
     while (std::abs(second_order(settled, z, w) - 1) <= 0.02) settled -= 1e-5;
     REQUIRE(f.settling_s.has_value());
@@ -120,8 +120,8 @@ TEST_CASE("no step, no answer, no samples: each in a sentence") {
   CHECK(says({}, step) == "log_tool.step_samples_missing");
 }
 
-/// A logarithmic sweep from 0.1 to 5 Hz in 60 s, four seconds of rest on either side, and what a lag of first
-/// order makes of it: in steps so small that these are exact to 1e-6.
+/// A logarithmic sweep from 0.1 to 5 Hz in 60 s, with four seconds of rest on either side, and the response
+/// of a first-order lag: in steps so small that these are exact to 1e-6.
 struct Swept {
   static constexpr double tau = 0.2, gain = 2;
   Series x, y;
@@ -164,7 +164,7 @@ TEST_CASE("a sweep through a first-order lag: gain within 2 %, phase within 1 de
   CHECK(within > 60);
   CHECK(r.at.front().hz < 0.2);
   CHECK(r.at.back().hz > 4.5);
-  CHECK(r.at.back().hz < 6);  // nothing is told of what was not excited
+  CHECK(r.at.back().hz < 6);  // no result beyond the excited range
 }
 
 TEST_CASE("an output of half the rate gives the same as far as its rate reaches") {
@@ -328,7 +328,7 @@ TEST_CASE("one of the two alone, a part of the time, another band; the table say
   for (const char* line : {"step of 10 deg at 3.00 s", "rise time, 10 to 90 %", "settling time, 5 %",
                            "steady gain                     0.5", "phase deg", "coherence"})
     CHECK_MESSAGE(text.find(line) != std::string::npos, text);
-  // half of what is asked for can be told: the other half says why not
+  // half of the request has a result: the other half gives the reason
   const std::string none = say(words + "--from 4").text;
   CHECK_MESSAGE(none.find("log_tool.step_figures_missing(log_tool.input_step_missing(") != std::string::npos,
                 none);

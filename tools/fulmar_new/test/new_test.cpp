@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `fulmar new`: what it reads from a mission, what it writes, what it refuses. That the projects build and
-// fly is tried by installed.sh.
+// `fulmar new`: its reading of a mission, its output, its rejections. installed.sh builds and flies the
+// projects.
 #include <doctest/doctest.h>
 #include <sys/wait.h>
 #include <unistd.h>

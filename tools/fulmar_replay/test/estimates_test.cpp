@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Estimators side by side, as a user sees them: fulmar replay --with, and two in one flight.
+// Comparison of estimators, as a user sees it: fulmar replay --with, and two in one flight.
 #include <nlohmann/json.hpp>
 
 #include "core/app/test/shell.hpp"
@@ -47,7 +47,7 @@ TEST_CASE("another filter under the role's name: what the log holds and what it 
   CHECK(e.at("first").at("samples") == e.at("second").at("samples"));
   CHECK(e.at("difference").at("position_north_m").at("rms") > 0.01);
   CHECK(e.at("errors").at("first").at("nees").at("correlated") == true);  // of the component's own port
-  // with the parameters of the second filter of the flight it says what that said
+  // with the parameters of the flight's second filter it gives the same estimate
   const Result two = fulmar("log compare --json " + flown().string());
   const json both = json::parse(two.out).at("estimates").at(0);
   CHECK(rms(both.at("errors"), "first", "position_north_m") ==

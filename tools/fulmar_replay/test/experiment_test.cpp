@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Replays in which something is different, and two logs side by side: the first tick and field that differ.
+// Replays with a change, and two logs compared: the first tick and field that differ.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -19,7 +19,7 @@ TEST_CASE("another parameter is an experiment: the figures of both are told, and
   CHECK(j.at("equal") == false);
   CHECK(j.at("first_difference").at("topic") == "/inner/actuators");
   CHECK(j.at("after").at("estimation_rmse") ==
-        j.at("before").at("estimation_rmse"));  // it has nothing to do with the law
+        j.at("before").at("estimation_rmse"));  // independent of the law
 }
 
 TEST_CASE("an experiment with what comes out of the log is refused, as it would change nothing") {
@@ -54,7 +54,7 @@ TEST_CASE("a law that does something else is found at its first tick and field")
   Flight flight(mission(one_phase), logged(log, 0.5));
   flight.run();
   Overrides changes;
-  changes.with = {{"one", variant("_better")}};  // it halves what it is told
+  changes.with = {{"one", variant("_better")}};  // halves its input
   const ReplayResult r = replay_of(log, changes);
   CHECK(!r.equal());
   CHECK(r.first_tick == 0u);

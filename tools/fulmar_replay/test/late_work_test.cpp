@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Replays of what ran in other threads and processes: as late, as often missed, and as dead as it was.
+// Replays of components in other threads and processes: with the same delays, misses and failures.
 #include <chrono>
 #include <csignal>
 #include <nlohmann/json.hpp>

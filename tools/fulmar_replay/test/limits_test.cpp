@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What comes from outside and was altered: logs, flown again and given to the words of `fulmar log`; plans,
-// given to the planner. Each takes less than a gigabyte and five seconds, and ends in a result or a sentence.
+// Altered inputs: logs for replay and `fulmar log`; plans for the planner. Each takes less than a gigabyte
+// and five seconds, and ends in a result or a message.
 #include "core/test/limits.hpp"
 
 #include <doctest/doctest.h>
@@ -34,7 +34,7 @@ fs::path flown(const fs::path& file) {
   return file;
 }
 
-/// Bytes of the file: most of it is under checksums, and is refused.
+/// Alters bytes of the file: most are covered by checksums, and are rejected.
 void damage(const fs::path& log, const fs::path& to, Dice& dice) {
   std::string bytes = contents(log);
   for (std::size_t n = 1 + dice.below(8); n > 0; --n)
@@ -43,8 +43,8 @@ void damage(const fs::path& log, const fs::path& to, Dice& dice) {
   store(to, bytes);
 }
 
-/// What the file holds, under right checksums: messages altered, lost and moved in time, attached texts,
-/// other tables of fields.
+/// Alters contents under valid checksums: messages changed, lost and moved in time, attached texts, other
+/// tables of fields.
 void forge(const fs::path& log, const fs::path& to, Dice& dice) {
   const WholeLog file = read_mcap(log);
   fs::remove(to);

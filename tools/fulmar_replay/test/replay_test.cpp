@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flights are flown again from their logs, to equal bytes.
+// Flights are replayed from their logs, to equal bytes.
 #include <sys/resource.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flights that are logged and flown again, for tests.
+// Flights that are logged and replayed, for tests.
 #pragma once
 #include <iterator>
 
@@ -12,7 +12,7 @@ namespace lab {
 
 inline const std::string hourglass = FULMAR_SOURCE_DIR "/configs/missions/hourglass.yaml";
 
-/// What goes to the standard output alone.
+/// Standard output alone.
 inline fulmar::test::Said run_fulmar(const std::string& words) {
   return fulmar::test::shell(FULMAR_BIN_DIR "/fulmar " + words + " 2>/dev/null");
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The words of events are for people: a log in which each of them says something else is replayed and resumed
-// as before. And logs whose events have no codes yet.
+// Texts of events have no effect: a log with another text in each event is replayed and resumed as before.
+// The test also covers logs whose events have no codes yet.
 #include <algorithm>
 #include <atomic>
 #include <functional>
@@ -20,7 +20,7 @@
 namespace translated_test {
 namespace {
 
-/// What an event is to become: its table and a message of it.
+/// Replacement of an event: its table and a message of it.
 using Change = std::function<std::vector<std::byte>(const Event&)>;
 
 /// A copy of a log with other events.
@@ -70,7 +70,7 @@ constexpr const char* misleading[] = {"phase nowhere",
                                       "",
                                       "ÜBERSETZT, mit Kommas, ohne Sinn"};
 
-/// Every event says what `word` gives for it.
+/// A copy in which the text of every event is `word` of it.
 fs::path translated(const fs::path& log, const std::string& name,
                     const std::function<std::string(std::size_t)>& word) {
   const fs::path to = fresh(name);
@@ -91,7 +91,7 @@ std::size_t count(const fs::path& log, Code code) {
       [&](const McapFile::Message& m) { return events.holds(m) && events.read(m.data).code == code; }));
 }
 
-/// The flight is the same whatever its events say, to the byte of the replay's own log.
+/// The flight is independent of the texts of events, to the byte of the replay's log.
 void check_words_mean_nothing(const fs::path& log) {
   const fs::path again = fresh("again.mcap");
   CHECK(replay_of(log, {}, again).equal());

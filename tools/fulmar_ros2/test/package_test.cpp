@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The package that ROS 2 would build, read back: texts parsed again have the hashes of the wire, names are
-// those that rosidl takes, and nothing that belongs to somebody else is touched.
+// The package for ROS 2, read back: parsed texts have the type hashes of the transmitted messages, names are
+// valid for rosidl, and files of other packages are not touched.
 #include <doctest/doctest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -132,7 +132,7 @@ TEST_CASE(
     CAPTURE(channel.topic);
     CAPTURE(schema.name);
     CHECK(texts.emplace(schema.name, schema.text).first->second ==
-          schema.text);  // ROS tells messages apart by name alone
+          schema.text);  // ROS identifies messages by name alone
     if (!schema.name.starts_with("fulmar_msgs/msg/")) {
       of_ros.insert(schema.name.substr(0, schema.name.find('/')));
       continue;

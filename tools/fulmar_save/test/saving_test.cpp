@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parameters that a client has written into the mission's file: shown first, and then those lines alone. The
-// live view asks the program fulmar-save for it.
+// Parameters that a client writes into the mission's file: shown first, and then exactly those lines. The
+// live view starts the program fulmar-save for it.
 #include "links/live/saving.hpp"
 
 #include <doctest/doctest.h>

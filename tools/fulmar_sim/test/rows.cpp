@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the test in Python flies, flown by the headers: rows as raw doubles on the standard output.
+// The flight of the Python test with the C++ headers: rows as raw doubles on the standard output.
 #include <cstdio>
 
 #include "fulmar/sim/airframe_file.hpp"

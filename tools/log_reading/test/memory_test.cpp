@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small files that would become large in memory: what compares and reads logs stays within a bound.
+// Small files that expand in memory: comparison and reading of logs stay within a bound.
 #include <doctest/doctest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -37,7 +37,7 @@ struct Outcome {
   long max_mb = 0;
 };
 
-/// What `work` says, in a process of its own, and the most memory that it has taken.
+/// Output of `work` in a separate process, and its largest use of memory.
 template <class Work>
 Outcome apart(const Folder& folder, const Work& work) {
   const pid_t child = ::fork();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Message definitions read back: our own text, and the text of messages that ROS 2 publishes.
+// Message definitions read back: those of Fulmar, and those published by ROS 2.
 #include "tools/log_reading/ros_parse.hpp"
 
 #include <doctest/doctest.h>
@@ -134,7 +134,7 @@ TEST_CASE("a schema tells what has no bound, and every whole number that constan
   CHECK(words.count == 0);
   CHECK(words.stride == 0);
   CHECK(name.stride == 8);
-  // far too large for a struct, and no difficulty for who reads value after value
+  // far too large for a struct, but not for a reader of one value after the other
   CHECK(parse_ros_schema("a/msg/B", "float64[4000000000] y\n")->fields[0].count == 4'000'000'000u);
 }
 
@@ -163,7 +163,7 @@ TEST_CASE("a definition that cannot be read is refused with the line that is wro
   std::string many;
   for (int i = 0; i < 20'001; ++i) many += "bool x" + std::to_string(i) + "\n";
   CHECK(refused(many) == "a/msg/B: reading.line_fault(bool x20000, reading.too_many_fields)");
-  std::string chain = "C10 x\nC20 y\n";  // the second is too deep by what the first has already read
+  std::string chain = "C10 x\nC20 y\n";  // the second is too deep because of the first
   for (int i = 1; i <= 20; ++i)
     chain += "====\nMSG: a/C" + std::to_string(i) + "\n" + (i == 1 ? "bool" : "C" + std::to_string(i - 1)) +
              " x\n";

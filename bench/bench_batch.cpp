@@ -2,9 +2,8 @@
 // Aircraft steps per second of a batch of 1000 through the library, by one thread and by two, with one step a
 // call and with 20: the Anaconda in level flight, 2.5 ms, no turbulence.
 // bench_batch [--json | --asked]
-// --asked: for each line `threads steps calls` on standard input it prints the processor time in ns of a step
-// of
-// one aircraft (bench_batch.py).
+// --asked: for each line `threads steps calls` on standard input it prints the processor time in ns of a
+// step of one aircraft (bench_batch.py).
 #include <time.h>
 
 #include <algorithm>

@@ -43,7 +43,7 @@ Said bench(const std::string& arguments) {
 }
 
 /// 60 s at rest on the equator, where a degree of longitude is 111319.49 m (WGS 84: a pi / 180). Fixes from
-/// 30 s to `until_s` say 3e-4 deg more, and 5 m more height.
+/// 30 s to `until_s` have errors of 3e-4 deg and 5 m of height.
 void write_standing(const Folder& folder, double until_s, const std::string& more = "") {
   std::ofstream imu(folder.path / "imu.csv"), gps(folder.path / "gps.csv"), air(folder.path / "air.csv");
   imu << "t,p,q,r,x,y,z\n", gps << "t,lat,lon,alt,vn,ve,vd\n", air << "t,p\n";

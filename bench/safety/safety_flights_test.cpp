@@ -20,7 +20,7 @@ struct Folder {
   ~Folder() { fs::remove_all(path); }
 };
 
-/// Flies the mission of `text` and says what the monitor `watch` has raised while it flew.
+/// Flies the mission of `text` and returns the alarms of the monitor `watch`.
 std::string raised(const fs::path& folder, const std::string& text) {
   using namespace fulmar::core;
   using fulmar::SafetyState;

@@ -36,7 +36,7 @@ std::string file_of(const std::string& first_line, double last_s = 30) {
   return s.str();
 }
 
-/// What reading a file of this content is refused with.
+/// The message for a file with this content.
 std::string fault(const std::string& content) {
   const Folder folder;
   const fs::path file = folder.path / "damaged.csv";
@@ -103,7 +103,7 @@ TEST_CASE("NASA's check cases are flown within three times the spread of NASA's 
       INFO("case " << c.number << ", " << f.signal << ": " << f.departure << ", bar " << f.bar);
       CHECK(f.within());
     }
-    // the same at a quarter of the rate: what is compared is the physics, not the step
+    // the same at a quarter of the rate: the comparison is one of physics, not of the step
     const Recording coarse = flown(c, start_of(theirs, c), 0.01);
     for (std::size_t column = 0; column < columns; ++column)
       CHECK(std::abs(coarse.of[column].back() - ours.of[column].back()) < 1e-5);
@@ -141,7 +141,7 @@ TEST_CASE(
   CHECK(figure(compared(ours, theirs, c), "airspeed_mps").bar == Approx(0.01));
   c.faulty = 2;
   CHECK(figure(compared(ours, theirs, c), "altitude_m").bar == Approx(6));
-  theirs[2].of[airspeed].clear();  // tells none: three are left
+  theirs[2].of[airspeed].clear();  // one without a value: three are left
   CHECK(figure(compared(ours, theirs, c), "airspeed_mps").departure == 0);
 }
 

@@ -76,7 +76,7 @@ void prepare_end(const std::string& log, bool flight_over) {
   std::snprintf(log_name, sizeof log_name, "%s", log.c_str());
 }
 
-// ---- async-signal-safe from here on, as all that is done by a program that ends
+// ---- async-signal-safe from here on: the program is ending
 
 void report(std::initializer_list<const char*> words) {
   for (const char* word : words) write_last_words(word);

@@ -132,7 +132,7 @@ struct OpenFile {
   OpenFile& operator=(const OpenFile&) = delete;
 };
 
-/// Reads to the end, whatever the reported size: files of the kernel report none. An endless file, or one
+/// Reads to the end, and ignores the reported size: files of the kernel report none. An endless file, or one
 /// without data yet, is rejected.
 std::string contents_of(int fd, const std::string& name) {
   std::string text;

@@ -366,7 +366,7 @@ std::uint32_t Isolated::dead(fulmar_error* error) noexcept {
   return FULMAR_FAILED;
 }
 
-// ---- as a component
+// ---- calls of a component
 
 const fulmar_component& Isolated::functions() {
   static const fulmar_component table = [] {

@@ -223,7 +223,7 @@ void make_printable(char* text) noexcept {
   }
 }
 
-// ---- out of a log
+// ---- reading a log
 
 HostMessages::HostMessages(const McapFile& file, const char* topic, TypePtr type)
     : topic_(topic), type_(std::move(type)) {

@@ -29,7 +29,7 @@ FlightResult Flight::finish() { return impl_->finish(); }
 
 const std::optional<Restart>& Flight::restart() const { return impl_->state.restart; }
 
-// ---- to look at
+// ---- observation
 
 Control* Flight::control() const { return impl_->clients.control.get(); }
 std::uint16_t Flight::live_port() const {
@@ -46,7 +46,7 @@ const Tape* Flight::tape(const std::string& component) const {
   return impl_->wiring.units[impl_->commands->component(component)]->tape.get();
 }
 
-// ---- to command
+// ---- commands
 
 void Flight::apply(Command command, std::function<void(const std::string&)> answered) {
   impl_->commands->prepare(command);

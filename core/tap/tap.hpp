@@ -96,7 +96,7 @@ class Tap {
  private:
   struct Channel;
   static constexpr std::uint32_t skipped = ~0u;
-  static constexpr std::size_t line = 64;   // bytes of a cache line; each thread writes lines of its own
+  static constexpr std::size_t line = 64;   // bytes of a cache line; each thread writes its own lines
   static constexpr std::size_t slices = 8;  // of the ring: each stores the start of its first record
 
   std::uint64_t* words_at(std::size_t byte) noexcept { return memory_.data() + byte / sizeof(std::uint64_t); }

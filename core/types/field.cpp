@@ -33,7 +33,7 @@ const Field& find_field(const Type& type, std::string_view name) {
   return nth(type.fields, require_named(type.fields, name, type.name, "field"));
 }
 
-// The number of items of a list, as a field of its own.
+// The number of items of a list, as a separate field.
 const Field& count_field() {
   static const Field field{.name = "count", .kind = FULMAR_U32, .stride = sizeof(std::uint32_t)};
   return field;

@@ -182,7 +182,7 @@ bool Guard::check(const std::byte* data) const noexcept {
   return run(steps_.data(), steps_.data() + steps_.size(), data);
 }
 
-// ---- in words
+// ---- messages
 
 namespace {
 

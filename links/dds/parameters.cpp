@@ -116,7 +116,7 @@ void write_descriptor(CdrOut& out, const std::string& name, const ParameterView*
   }
 }
 
-// ---- answers that only look
+// ---- read requests
 
 Bytes list_parameters(const Control& control, CdrReader in) {
   const std::vector<std::string> prefixes = in.texts();
@@ -166,7 +166,7 @@ Bytes describe_parameters(const Control& control, CdrReader in) {
   return each_name(control, in, write_descriptor);
 }
 
-// ---- answers that change something
+// ---- write requests
 
 /// Collects the result of each parameter of one call; the last answer sends the reply.
 struct Results {

@@ -24,7 +24,7 @@ constexpr std::int64_t delivered_ns = 1'000'000'000;
 
 }  // namespace
 
-// ---- others
+// ---- remote endpoints
 
 void Others::expect(const std::string& topic, const std::string& type, bool we_write, bool best_effort) {
   const std::lock_guard lock(mutex_);

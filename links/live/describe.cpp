@@ -142,7 +142,7 @@ json lists(const std::map<std::string, std::vector<std::string>>& map, const cha
   return list;
 }
 
-// ---- the page that a browser gets
+// ---- page for browsers
 
 constexpr const char* page_head =
     "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "

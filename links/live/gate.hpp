@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who may speak to a flight: address, token, Host and Origin of a request. Without sockets. Against pages of
-// other sites that a browser of this computer shows (cross-site requests, DNS names that turn into
-// 127.0.0.1).
+// Access control of a flight: address, token, Host and Origin of a request. Without sockets. It protects
+// against pages of other sites in a browser of this computer: cross-site requests, and DNS names that are
+// redirected to 127.0.0.1.
 #pragma once
 #include <chrono>
 #include <map>

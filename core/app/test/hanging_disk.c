@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A disk that hangs, for LD_PRELOAD: as long as the file is there that FULMAR_HANG names, nothing is written
-// to files that end in .part.
+// A disk that hangs, for LD_PRELOAD: while the file in FULMAR_HANG exists, a write to a file that ends in
+// .part blocks.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <stdio.h>

@@ -44,7 +44,7 @@ TEST_CASE("a fix that is lost for 3 s in the take-off run does not end the take-
   CHECK_FALSE(l.has("wait"));
 }
 
-TEST_CASE("a pilot who flies with closed throttle and gives back leaves a motor that is not called dead") {
+TEST_CASE("a pilot's flight with closed throttle does not make the motor count as dead") {
   flown("safe", "the pilot flies for 5 s with closed throttle", 3);
 }
 

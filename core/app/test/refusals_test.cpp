@@ -31,7 +31,7 @@ TEST_CASE("impossible values are rejected before the flight") {
   CHECK(page.err == "fulmar: app.output_not_writable\n");
 }
 
-TEST_CASE("a value that no aircraft has is refused, with its range" * doctest::test_suite("amounts")) {
+TEST_CASE("a value that no aircraft has is rejected, with its range" * doctest::test_suite("amounts")) {
   const std::string with_plan = "components:\n  plan: {params: {plan: ";
   const auto refused = [](const std::string& text, const std::string& reported) {
     CAPTURE(text);

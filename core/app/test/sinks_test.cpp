@@ -60,7 +60,7 @@ std::uint16_t free_port() {
   return ntohs(at.sin_port);
 }
 
-/// `fulmar run` in a process of its own.
+/// `fulmar run` in a separate process.
 class Running {
  public:
   explicit Running(const std::string& preload = "")

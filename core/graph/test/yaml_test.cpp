@@ -104,7 +104,7 @@ TEST_CASE("control characters are rejected, 8-bit ones as well") {
   CHECK(read("mission: \"caf\\u00e9\"\n").printed == "");
 }
 
-TEST_CASE("400000 unknown keys are told as the first hundred of them" * doctest::test_suite("amounts")) {
+TEST_CASE("of 400000 unknown keys the first hundred are reported" * doctest::test_suite("amounts")) {
   std::string text;
   for (int i = 0; i < 400'000; ++i) text += "unknown" + std::to_string(i) + ": 1\n";
   const Read keys = resolve(text);
@@ -143,7 +143,7 @@ TEST_CASE("50000 wrong names cost little more than the hundred that are reported
   }
 }
 
-TEST_CASE("more than a thousand roles, components or phases are refused" * doctest::test_suite("amounts")) {
+TEST_CASE("more than a thousand roles, components or phases are rejected" * doctest::test_suite("amounts")) {
   const auto refusal = [](const std::string& section, const std::string& one) {
     const Flood wrong = flood(section + ":\n", "  x#: " + one + "\n");
     CHECK(wrong.seconds < 10 * wrong.parsed_seconds);

@@ -21,7 +21,7 @@ using namespace fulmar::core;
 
 namespace {
 
-// ---- its last act when it crashes: it tells the host which signal ends it, and wakes it
+// ---- crash: reports the signal to the host and wakes it
 
 ControlBlock* shared = nullptr;
 std::uintptr_t stack_top = 0;
@@ -68,7 +68,7 @@ void report_crashes(ControlBlock& control) {
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) ::sigaction(signal, &action, nullptr);
 }
 
-// ---- its beginning
+// ---- start
 
 void close_others() {
 #ifdef SYS_close_range

@@ -104,7 +104,7 @@ int try_it_here(int argc, char** argv, pid_t guard) {
   return try_it(argc, argv);
 }
 
-// ---- the process that stays behind: it runs nothing of the file's
+// ---- the waiting parent: it runs no code of the file
 
 std::atomic<pid_t> trying{0};
 std::atomic<bool> over{false};

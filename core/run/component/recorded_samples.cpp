@@ -99,7 +99,7 @@ bool SampleTrack::next(std::int64_t now_ns, SampleSource::Sample& sample) noexce
   return true;
 }
 
-// ---- a log that nobody else reads
+// ---- a log with a single reader
 
 RecordedSamples::RecordedSamples(const std::filesystem::path& log, const ComponentInfo& info,
                                  const std::vector<std::string>& topics, const std::string& probes,

@@ -82,7 +82,7 @@ class Ring {
 
  private:
   static constexpr std::uint32_t skipped = ~0u;
-  static constexpr std::size_t line = 64;  // bytes of a cache line; each thread writes lines of its own
+  static constexpr std::size_t line = 64;  // bytes of a cache line; each thread writes its own lines
 
   static constexpr std::size_t record_size(std::size_t data) {
     return (sizeof(Record) + data + 7) & ~std::size_t{7};

@@ -202,7 +202,7 @@ void Recorder::note_swap(const std::string& component, const PluginInfo& plugin)
   log_->metadata("swap", pairs);
 }
 
-// ---- texts for people
+// ---- texts for users
 
 void Recorder::listen(const Units& units) {
   reported_.clear();

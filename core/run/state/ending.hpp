@@ -95,7 +95,7 @@ class Ending {
 
   /// [tick] At its end.
   Acts tick(const Facts& facts) noexcept;
-  /// [tick] Takes effect immediately: nobody, vehicle_failed, abandoned.
+  /// [tick] Takes effect immediately: none_left, vehicle_failed, abandoned.
   Act take(Cue cue, std::int64_t now_ns) noexcept;
 
   State state() const noexcept { return state_; }

@@ -136,7 +136,7 @@ TEST_CASE("a request is answered by the step that reads it") {
   CHECK(answers[1] == "cannot go back");
 }
 
-TEST_CASE("the log holds each request, each refusal and its reason") {
+TEST_CASE("the log holds each request, each rejection and its reason") {
   const Graph g = mission(one_phase);
   FlightOptions o = options(0.2);
   o.log = true;

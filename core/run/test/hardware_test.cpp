@@ -274,7 +274,7 @@ TEST_CASE(
   CHECK(load_mission(file.string()).report.empty());
 }
 
-// ---- what protects the aircraft
+// ---- protection of the aircraft
 
 namespace {
 

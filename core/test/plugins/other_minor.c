@@ -96,7 +96,7 @@ __attribute__((visibility("default")))
 const entry fulmar_plugin_entry = {{FULMAR_ABI_MAJOR, MINOR, 2, sizeof(component), "1.0.0", "a C compiler",
                                     "", &components[0].base, NULL, NULL} TAIL_VALUE};
 #else
-/* As abi.h of 1.0 had it. */
+/* As in abi.h of 1.0. */
 typedef struct {
   uint32_t abi_major, abi_minor, component_count, component_stride;
   const char *version, *toolchain, *flags;

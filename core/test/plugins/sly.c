@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Constructors for variant.c that behave in one way where the plugin is tried, and in another where it is
-// used.
+// Constructors for variant.c that do no harm in the probe and misbehave in the host.
 #define _GNU_SOURCE
 #include <fcntl.h>
 #include <signal.h>
@@ -52,7 +51,7 @@ __attribute__((destructor)) static void at_last(void) {
   while (stays) pause();
 }
 
-/// A process in a session of its own, whose parent is gone, writes its number to the file SLY_FILE.
+/// An orphaned process in a separate session writes its number to the file SLY_FILE.
 static void leave_behind(const char* name) {
   int ready[2];
   if (pipe(ready) != 0 || fork() != 0) {

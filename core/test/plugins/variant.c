@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A small plugin with one thing wrong, chosen by the build: every refusal of the host has its file. */
+/* A small plugin with one fault, chosen by the build: one file for each error of the host. */
 #include <fulmar/abi.h>
 #include <math.h>
 #include <signal.h>

@@ -55,7 +55,7 @@ static int write_topic(dds_entity_t participant, dds_entity_t topic, const dds_q
     dds_sleepfor(DDS_MSECS(5));
     dds_get_publication_matched_status(writer, &matched);
   }
-  dds_sleepfor(DDS_MSECS(500));  // the other side has to find this writer, too
+  dds_sleepfor(DDS_MSECS(500));  // the reader must discover this writer, too
   double volts[2] = {0.5, 1.0};
   Leg legs[1] = {{1, true, 0.5, {3, 4, 5}}};
   Mixed m;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The other side, as rmw_fastrtps is it: plain Fast DDS and Fast CDR, and nothing of the code under test.
+// A remote program that behaves like rmw_fastrtps: plain Fast DDS and Fast CDR, without the code under test.
 //
 // dds_peer publish DOMAIN TOPIC TYPE reliable|best_effort RATE HEX...
 //   to the first reader; RATE 0: all at once; HEX*1000 repeats, @FILE reads them

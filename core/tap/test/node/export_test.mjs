@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// node export_test.mjs LOG FOLDER: every value of every message, as the readers of others decode it, stands in the CSV files that
-// `fulmar log export LOG --to csv --out FOLDER` has written, and nothing else does.
+// node export_test.mjs LOG FOLDER: every value of every message, as third-party readers decode it, is in the CSV files of
+// `fulmar log export LOG --to csv --out FOLDER`, and no other value is.
 import assert from "node:assert/strict";
 import { createReadStream } from "node:fs";
 import { join } from "node:path";

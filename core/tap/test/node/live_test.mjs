@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// node live_test.mjs TAP_LIVE_SERVER: a client of others lists the channels of a mock flight, decodes its 400 Hz, sets a parameter, calls
+// node live_test.mjs TAP_LIVE_SERVER: a third-party client lists the channels of a mock flight, decodes its 400 Hz, sets a parameter, calls
 // services and publishes.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";

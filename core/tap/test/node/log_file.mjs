@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Opens a log as Foxglove and its kin do: indexed reader, checksums verified, schemas parsed as ROS 2 message text,
+// Opens a log like Foxglove: indexed reader, checksums verified, schemas parsed as ROS 2 message text,
 // messages decoded as CDR.
 import { open } from "node:fs/promises";
 import { createHash } from "node:crypto";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// node recording_test.mjs SENSOR_LOG_FILES: has a bag and a ULog written, reads them with the readers of others, and finds in
-// them exactly what the plugin sensor_log published of them.
+// node recording_test.mjs SENSOR_LOG_FILES: writes a bag and a ULog, reads them with third-party readers, and compares
+// their content with the samples that the plugin sensor_log published.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { createReadStream, mkdtempSync, rmSync } from "node:fs";

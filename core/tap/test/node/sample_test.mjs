@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// node sample_test.mjs TAP_SAMPLE_LOG: has a log written and finds in it, with the readers of others, exactly what our own reader found.
+// node sample_test.mjs TAP_SAMPLE_LOG: writes a log and compares its content in third-party readers with that of Fulmar's reader.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, rmSync } from "node:fs";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// node viewer_test.mjs FULMAR MISSION LAYOUTS: flies the mission with its own log settings and does with the log what a viewer does:
-// knows types by their names, builds the tree of frames, places what is drawn in it, and looks for every topic and field of the
-// layouts that are shipped.
+// node viewer_test.mjs FULMAR MISSION LAYOUTS: flies the mission with its own log settings and uses the log like a viewer:
+// identifies types by their names, builds the tree of frames, places all drawn objects in it, and checks every topic and field
+// of the shipped layouts.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
@@ -11,7 +11,7 @@ import { messages, schemas } from "./log_file.mjs";
 
 const [fulmar, mission, layouts] = process.argv.slice(2);
 const fixed = "map";
-/** What a 3-D panel draws, a map shows, a log panel lists: by schema name alone. */
+/** Schema names that a 3-D panel draws, a map shows, or a log panel lists. */
 const drawn = new Set(["visualization_msgs/msg/MarkerArray", "nav_msgs/msg/Path", "geometry_msgs/msg/PoseStamped"]);
 const seconds = (stamp) => stamp.sec + 1e-9 * stamp.nanosec;
 const length = ({ x, y, z }) => Math.hypot(x, y, z);
@@ -75,7 +75,7 @@ try {
     assert.ok(Math.abs(seconds(m.value.transforms[0].header.stamp) - Number(m.log_ns) * 1e-9) < 0.02, "stamps of the log");
   for (const { transform: { rotation: q } } of places) assert.ok(Math.abs(Math.hypot(q.x, q.y, q.z, q.w) - 1) < 1e-9);
 
-  // 3-D: whatever can be drawn has a frame of the tree
+  // 3-D: each drawn object has a frame of the tree
   const scene = [...types.keys()].filter((t) => drawn.has(type_of(t)) && found[t]);
   assert.deepEqual([...new Set(scene.map(type_of))].sort(), [...drawn].sort());
   for (const topic of scene)
@@ -90,7 +90,7 @@ try {
   assert.deepEqual(balls, waypoints.map((p) => ({ x: p.east, y: p.north, z: -p.down })));
   assert.equal(markers.filter((m) => m.type === 9).map((m) => m.text).join(), waypoints.map((_, i) => i).join());
 
-  // the path is the one that is flown: from the second minute on, half of the flight is within some metres of it
+  // the aircraft follows the path: from the second minute on, half of the flight is within some metres of it
   const [path_topic] = of_type("nav_msgs/msg/Path");
   const path = values(path_topic).at(-1).poses.map((p) => p.pose.position);
   const [pose_topic] = of_type("geometry_msgs/msg/PoseStamped");
@@ -117,14 +117,14 @@ try {
   }
   assert.ok(compared > 0.9 * places.length);
 
-  // what happened, for the log panel
+  // events for the log panel
   const lines = values("/rosout"), events = values("/fulmar/event");
   assert.equal(type_of("/rosout"), "rcl_interfaces/msg/Log");
   assert.deepEqual(lines.map((l) => l.msg), events.map((e) => e.words));
   assert.deepEqual(lines.map((l) => l.level), events.map((e) => 20 + 10 * e.severity));
   assert.ok(lines.some((l) => l.function === "phase"));
 
-  // on change, and once a minute: who begins to look in the middle waits no longer
+  // on change, and once a minute: a viewer that opens later waits at most that long
   const last_s = seconds(places.at(-1).header.stamp);
   for (const topic of [path_topic, marker_topic]) {
     const times = [...values(topic).map((m) => seconds((m.markers?.[0] ?? m).header.stamp)), last_s];

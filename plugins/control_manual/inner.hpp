@@ -127,9 +127,9 @@ struct Inner {
   }
 
   /// Law in force: without a pilot an axis holds the attitude; without an attitude a stick moves its surface.
-  static Law in_force(Law said, const Now& now) {
+  static Law in_force(Law chosen, const Now& now) {
     if (!now.hand.there) return Law::attitude;
-    return now.known || said == Law::attitude ? said : Law::surface;
+    return now.known || chosen == Law::attitude ? chosen : Law::surface;
   }
 
   /// Rates that lead to the limits of the envelope, as for an attitude: rate = gain (limit - attitude).

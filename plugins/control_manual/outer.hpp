@@ -71,12 +71,12 @@ struct Outer {
     const AttitudeCommand asked{hand.roll * p.roll_range, level + hand.pitch * p.pitch_range, hand.throttle};
     const AttitudeCommand has{state.roll_rad, state.pitch_rad, hand.throttle};
 
-    bool as_said = true;
-    const auto axis = [&](Blend& blend, Source said, double AttitudeCommand::*of) {
-      Source source = hand.there ? said : Source::automatic;
+    bool as_chosen = true;
+    const auto axis = [&](Blend& blend, Source chosen, double AttitudeCommand::*of) {
+      Source source = hand.there ? chosen : Source::automatic;
       if (source == Source::automatic && hand.there && !lawful) source = Source::stick;
       if (source == Source::flown && !state.attitude_valid) source = Source::stick;
-      as_said = as_said && source == said;
+      as_chosen = as_chosen && source == chosen;
       const AttitudeCommand& from = source == Source::stick ? asked : source == Source::flown ? has : held;
       return blend.step(from.*of, static_cast<int>(source), decay);
     };
@@ -90,7 +90,7 @@ struct Outer {
                               pitch_slew_.step(kept.pitch_rad, p.pitch_rate_limit, dt), kept.throttle_frac});
     out.protecting_ratio = kept.roll_rad != wanted.roll_rad || kept.pitch_rad != wanted.pitch_rad ||
                            kept.throttle_frac != wanted.throttle_frac;
-    return as_said && (hand.there || lawful) ? Status::ok : Status::degraded;
+    return as_chosen && (hand.there || lawful) ? Status::ok : Status::degraded;
   }
 
  private:

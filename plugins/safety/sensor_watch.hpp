@@ -44,9 +44,9 @@ struct SensorWatch {
         in.ground ? in.ground->contact == Contact::air : s.velocity_valid && s.ground_speed_mps > p.flying;
     for (std::size_t i = 0; i < sensors.size() && in.health && !in.health.stale(); ++i) {
       // One receiver gives both: its silence is reported with the position alone.
-      const bool said = sensors[i].health == &NavigationHealth::gnss_velocity &&
-                        in.health->gnss_position.state == SensorState::silent;
-      watch(sensors[i], (*in.health).*sensors[i].health, reported_[i], flies && !said, p, now_s, dt, tick,
+      const bool covered = sensors[i].health == &NavigationHealth::gnss_velocity &&
+                           in.health->gnss_position.state == SensorState::silent;
+      watch(sensors[i], (*in.health).*sensors[i].health, reported_[i], flies && !covered, p, now_s, dt, tick,
             out);
     }
     if (in.health && !in.health.stale()) inertial(*in.health, flies, p, now_s, dt, tick, out);

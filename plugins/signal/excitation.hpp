@@ -79,12 +79,12 @@ class Excitation {
 
   /// Takes over the role. After another component the signal of the phase begins at its start. While the
   /// pilot flies, a signal ends and none begins.
-  void take_over(bool somebody_flew) {
-    if (somebody_flew) {
+  void take_over(bool other_active) {
+    if (other_active) {
       request_ = {};
       aborted_ = false;
     }
-    if (!somebody_flew && running_) abort(signal_messages::aborted_by_pilot.c_str());
+    if (!other_active && running_) abort(signal_messages::aborted_by_pilot.c_str());
     running_ = false;
     last_ = left_ = {};
   }

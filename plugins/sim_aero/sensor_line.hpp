@@ -98,18 +98,18 @@ class SensorLine {
     return taken;
   }
 
-  /// Loses, delays or delivers the present sample, and publishes what is due. `spoken`: the sensor has
+  /// Loses, delays or delivers the present sample, and publishes what is due. `sampled`: the sensor has
   /// produced a sample.
   template <class Port>
-  void take(const T& sample, std::int64_t now_ns, bool spoken, Port& port) {
-    if (!spoken || lost()) return;
+  void take(const T& sample, std::int64_t now_ns, bool sampled, Port& port) {
+    if (!sampled || lost()) return;
     if (delay_ns_ == 0) return port.publish(sample, now_ns);
     under_way_.push(sample, now_ns);
   }
   template <class Port>
-  void deliver(std::int64_t now_ns, bool spoken, Port& port) {
+  void deliver(std::int64_t now_ns, bool sampled, Port& port) {
     if (delay_ns_ == 0) return;
-    if (const auto* late = under_way_.pop(now_ns, delay_ns_); late && spoken)
+    if (const auto* late = under_way_.pop(now_ns, delay_ns_); late && sampled)
       port.publish(late->value, late->valid_at_ns);
   }
   bool delayed() const { return delay_ns_ > 0; }

@@ -75,8 +75,8 @@ class Sensors {
     if (spec_.baro_static_port != 0)
       pressure +=
           spec_.baro_static_port * 0.5 * plant.air().density_kgm3 * plant.air_velocity_b().squaredNorm();
-    const double said = faults_.baro(pressure + baro_.next(baro_random_));
-    return {sent(baro_sheet_.used() ? baro_sheet_.digits(said) : said), spec_.temperature_kelvin};
+    const double output = faults_.baro(pressure + baro_.next(baro_random_));
+    return {sent(baro_sheet_.used() ? baro_sheet_.digits(output) : output), spec_.temperature_kelvin};
   }
 
   /// (7.10). The pitot takes the whole flow up to 20 degrees off its axis, less beyond, and none from 60
@@ -88,9 +88,9 @@ class Sensors {
     const double taken = std::clamp((cosine - 0.5) / (0.9397 - 0.5), 0.0, 1.0);
     double pressure = pitot_scale_ * taken * 0.5 * plant.air().density_kgm3 * Va * Va;
     if (places_.reach_pitot()) pressure = places_.pitot(plant, v_r, taken, pressure);
-    const double said = faults_.pitot(pressure + pitot_.next(pitot_random_));
+    const double output = faults_.pitot(pressure + pitot_.next(pitot_random_));
     Pitot out;
-    out.pressure_pa = sent(pitot_sheet_.used() ? pitot_sheet_.digits(said) : said);
+    out.pressure_pa = sent(pitot_sheet_.used() ? pitot_sheet_.digits(output) : output);
     out.indicated_airspeed_mps = sent(indicated_airspeed(out.pressure_pa));
     out.temperature_kelvin = spec_.temperature_kelvin;
     return out;

@@ -217,7 +217,7 @@ TEST_CASE(
 }
 
 TEST_CASE("surfaces at zero in a glide are somebody's command; after nobody the law begins at its trim") {
-  for (const bool somebody : {true, false}) {
+  for (const bool with_last : {true, false}) {
     Bench<Inner> bench;
     auto& airframe = bench.params.airframe.value;
     airframe.elevator.trim_rad = -0.04;
@@ -227,11 +227,11 @@ TEST_CASE("surfaces at zero in a glide are somebody's command; after nobody the 
     s.roll_rad = 0.01;
     bench.set(bench.in.state, s);
     bench.set(bench.in.attitude, AttitudeCommand{0.02, 0.03, 0});
-    REQUIRE((somebody ? bench.activate(Inner::Outputs{}) : bench.activate()) == Status::ok);
+    REQUIRE((with_last ? bench.activate(Inner::Outputs{}) : bench.activate()) == Status::ok);
     REQUIRE(bench.step(0.01) == Status::ok);
     // without a law before: trim and gain times error, 1.2 and 4.0 times 0.01 rad
-    CHECK(std::abs(bench.out.actuators.aileron_rad - (somebody ? 0 : 0.042)) < 1e-3);
-    CHECK(std::abs(bench.out.actuators.elevator_rad - (somebody ? 0 : -0.08)) < 1e-3);
+    CHECK(std::abs(bench.out.actuators.aileron_rad - (with_last ? 0 : 0.042)) < 1e-3);
+    CHECK(std::abs(bench.out.actuators.elevator_rad - (with_last ? 0 : -0.08)) < 1e-3);
     CHECK(bench.out.actuators.throttle_frac == 0);
   }
 }

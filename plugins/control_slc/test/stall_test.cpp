@@ -24,7 +24,7 @@ struct Flight {
   VehicleState state;
   double stalled_s = 0, max_s = 0, lowest_m = 1e9;
   int reported = 0;
-  bool tube = true;
+  bool pitot = true;
 
   Flight(const Airframe& nominal, const Airframe& body, Turbulence turbulence, std::uint64_t seed)
       : model(body, turbulence, seed) {
@@ -40,7 +40,7 @@ struct Flight {
     const double Va = std::max(s.airspeed_mps, 1.0);
     s.alpha_rad = (s.pitch_rad - std::asin(std::clamp(s.climb_rate_mps / Va, -1.0, 1.0))) /
                   std::max(std::cos(s.roll_rad), 0.5);
-    s.airspeed_valid = s.airspeed_valid && tube;
+    s.airspeed_valid = s.airspeed_valid && pitot;
     s.wind_valid = true;
     return s;
   }
@@ -91,14 +91,14 @@ TEST_CASE("a tenth heavier than said, at its least airspeed, in moderate turbule
 }
 
 TEST_CASE("an aircraft with little static margin leaves the stall that an updraft of 16 m/s makes") {
-  for (const bool tube : {true, false})
+  for (const bool pitot : {true, false})
     for (const Airframe& a : {test::anaconda(), glider()}) {
-      CAPTURE(tube);
+      CAPTURE(pitot);
       CAPTURE(a.aero.pitch.alpha_ratio);
       Flight f(a, a, Turbulence::none, 1);
       f.command.airspeed_mps = 14;
       f.run(20);
-      f.tube = tube;
+      f.pitot = pitot;
       f.model.wind_n.z() = -16;
       f.run(1.5);
       f.model.wind_n.z() = 0;

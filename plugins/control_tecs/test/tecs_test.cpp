@@ -310,7 +310,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a glide, all zeros, is somebody's command; after nobody a law begins at attitude and cruise") {
-  for (const bool somebody : {true, false}) {
+  for (const bool with_last : {true, false}) {
     Bench<Outer> bench;
     configure(bench);
     VehicleState s = flying();
@@ -319,10 +319,10 @@ TEST_CASE("a glide, all zeros, is somebody's command; after nobody a law begins 
     s.height_m = 60;  // too low: the law asks for more than trim
     bench.set(bench.in.state, s);
     bench.set(bench.in.command, level());
-    REQUIRE((somebody ? bench.activate(Outer::Outputs{}) : bench.activate()) == Status::ok);
+    REQUIRE((with_last ? bench.activate(Outer::Outputs{}) : bench.activate()) == Status::ok);
     REQUIRE(bench.step(0.01) == Status::ok);
     const AttitudeCommand& a = bench.out.attitude;
-    const double throttle = somebody ? 0 : 0.5, pitch = somebody ? 0 : 0.1, roll = somebody ? 0 : 0.3;
+    const double throttle = with_last ? 0 : 0.5, pitch = with_last ? 0 : 0.1, roll = with_last ? 0 : 0.3;
     CHECK(std::abs(a.throttle_frac - throttle) <= 0.0201);  // 2 per second
     CHECK(std::abs(a.pitch_rad - pitch) <= 0.0081);         // 0.8 rad/s
     CHECK(std::abs(a.roll_rad - roll) <= 0.0401);           // smoothed towards 0 with 0.1 s
@@ -331,8 +331,8 @@ TEST_CASE("a glide, all zeros, is somebody's command; after nobody a law begins 
     // the hand-over, and B = 0.4 V g sin(0.1). Without a law before they stay 0.
     const double B = 0.4 * cruise * g * std::sin(0.1);
     const double integral = 0.6 * B / (g * cruise);
-    CHECK(std::abs(bench.out.throttle_integral_frac.value - (somebody ? -0.2 : 0)) < 0.004);
-    CHECK(std::abs(bench.out.pitch_integral_rad.value - (somebody ? integral : 0)) < 3e-4);
+    CHECK(std::abs(bench.out.throttle_integral_frac.value - (with_last ? -0.2 : 0)) < 0.004);
+    CHECK(std::abs(bench.out.pitch_integral_rad.value - (with_last ? integral : 0)) < 3e-4);
     CHECK(integral > 0.015);
   }
 }

@@ -82,7 +82,8 @@ void hold_alone(int descriptor, const std::string& path) {
   // The creator of a pseudo-terminal may keep this end open, too.
   const unsigned kind = major(info.st_rdev);
   const bool pseudo = kind >= 136 && kind <= 143;
-  if (const std::string who = pseudo ? "" : other_user(info); !who.empty()) throw PortError(held(path, who));
+  if (const std::string holder = pseudo ? "" : other_user(info); !holder.empty())
+    throw PortError(held(path, holder));
   ioctl(descriptor, TIOCEXCL);
 }
 

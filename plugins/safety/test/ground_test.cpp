@@ -115,11 +115,11 @@ TEST_CASE("a lift-off is what rises faster than the ground may, not a roll and n
 }
 
 TEST_CASE("a host that begins in the air estimates so within a second, with and without airspeed") {
-  for (const bool tube : {true, false}) {
+  for (const bool pitot : {true, false}) {
     Craft c;
     c.s.height_m = 70;
     c.fast(17);
-    c.s.airspeed_valid = tube;
+    c.s.airspeed_valid = pitot;
     CHECK(c.until(Contact::air, 3) < 1);
   }
 }

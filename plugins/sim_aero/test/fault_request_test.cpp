@@ -91,7 +91,7 @@ TEST_CASE("the size of a vector is its length, along the parameter's") {
   pass(*right, &level);
   pass(*b, &level);
   pass(*right, &level);
-  const Eigen::Vector3d offset = said(b->out, FaultTarget::gyro) - said(right->out, FaultTarget::gyro);
+  const Eigen::Vector3d offset = sensed(b->out, FaultTarget::gyro) - sensed(right->out, FaultTarget::gyro);
   CHECK((offset - Eigen::Vector3d(0, 0.3, 0.4)).norm() < 1e-9);
 }
 

@@ -53,7 +53,7 @@ inline bool spoke(const Aircraft::Outputs& out, FaultTarget target) {
 }
 
 /// Output of the sensor; the position from the default origin, a scalar in x.
-inline Eigen::Vector3d said(const Aircraft::Outputs& out, FaultTarget target) {
+inline Eigen::Vector3d sensed(const Aircraft::Outputs& out, FaultTarget target) {
   const Gnss& g = out.gnss.value;
   switch (target) {
     case FaultTarget::gyro: return eigen(out.imu.value.rate_radps);

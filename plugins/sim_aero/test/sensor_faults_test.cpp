@@ -58,7 +58,7 @@ std::vector<Vector3d> jumps(std::uint64_t seed, FaultTarget target, double time_
   std::vector<Vector3d> out;
   pair.step(4000, [&] {
     if (spoke(pair.failing->out, target))
-      out.push_back(said(pair.failing->out, target) - said(pair.right->out, target));
+      out.push_back(sensed(pair.failing->out, target) - sensed(pair.right->out, target));
   });
   return out;
 }
@@ -70,7 +70,7 @@ TEST_CASE("a stuck sensor says its last value again and again, at its rate and w
   for (const FaultTarget target : all_sensors) {
     CAPTURE(static_cast<int>(target));
     Pair pair(SensorSet::rosflight);
-    const Vector3d last = said(pair.failing->out, target);
+    const Vector3d last = sensed(pair.failing->out, target);
     pair.fail(target, SensorFault::stuck);
     int samples = 0, in_order = 0;
     std::int64_t stamp = pair.failing->out.gnss.valid_at_ns;
@@ -78,7 +78,7 @@ TEST_CASE("a stuck sensor says its last value again and again, at its rate and w
       in_order += spoke(pair.right->out, target);
       if (!spoke(pair.failing->out, target)) return;
       ++samples;
-      CHECK(same(said(pair.failing->out, target), last, 1e-12));
+      CHECK(same(sensed(pair.failing->out, target), last, 1e-12));
       if (!pair.failing->out.gnss.written) return;
       CHECK(pair.failing->out.gnss.valid_at_ns > stamp);
       stamp = pair.failing->out.gnss.valid_at_ns;
@@ -107,8 +107,8 @@ TEST_CASE("a wrong sensor is off by its offset and factor, exactly") {
     const Vector3d offset = scalar ? Vector3d(off_by.x(), 0, 0) : off_by;
     pair.step(80, [&] {
       if (!spoke(pair.failing->out, target)) return;
-      const Vector3d expected = 1.25 * said(pair.right->out, target) + offset;
-      CHECK(same(said(pair.failing->out, target), expected, 1e-9));  // a position goes through degrees
+      const Vector3d expected = 1.25 * sensed(pair.right->out, target) + offset;
+      CHECK(same(sensed(pair.failing->out, target), expected, 1e-9));  // a position goes through degrees
     });
   }
 }
@@ -142,7 +142,7 @@ TEST_CASE("a noisy sensor has its own deviation times the factor, with and witho
       std::vector<Vector3d> added;
       pair.step(passes, [&] {
         if (spoke(pair.failing->out, target))
-          added.push_back(said(pair.failing->out, target) - said(pair.right->out, target));
+          added.push_back(sensed(pair.failing->out, target) - sensed(pair.right->out, target));
       });
       const double own = set == SensorSet::perfect ? 0 : of(target);
       const double total = std::hypot(deviation(added).y(), own);
@@ -198,7 +198,7 @@ TEST_CASE("a sensor that jumps again begins without the offset of the last time"
   Pair pair(SensorSet::perfect);
   SensorFaultParams& p = pair.failing->params.faults.sensors_that_fail;
   const auto off = [&] {
-    return (said(pair.failing->out, FaultTarget::gyro) - said(pair.right->out, FaultTarget::gyro)).norm();
+    return (sensed(pair.failing->out, FaultTarget::gyro) - sensed(pair.right->out, FaultTarget::gyro)).norm();
   };
   p.fault_time.value = 0.01;
   pair.fail(FaultTarget::gyro, SensorFault::jumping);
@@ -254,8 +254,8 @@ TEST_CASE("gyroscopes or accelerometers alone that are off say zero; both are si
   Pair pair(SensorSet::rosflight);
   pair.fail(FaultTarget::gyro, SensorFault::off);
   pair.step(10);
-  CHECK(said(pair.failing->out, FaultTarget::gyro).norm() == 0);
-  CHECK(same(said(pair.failing->out, FaultTarget::accel), said(pair.right->out, FaultTarget::accel), 0));
+  CHECK(sensed(pair.failing->out, FaultTarget::gyro).norm() == 0);
+  CHECK(same(sensed(pair.failing->out, FaultTarget::accel), sensed(pair.right->out, FaultTarget::accel), 0));
   pair.fail(FaultTarget::accel, SensorFault::off);
   pair.step(10, [&] { CHECK_FALSE(pair.failing->out.imu.written); });
 }
@@ -281,7 +281,7 @@ TEST_CASE("a fault of one sensor leaves all others to the bit, and when it ends 
       CAPTURE(static_cast<int>(kind));
       Pair pair(SensorSet::ublox);
       const auto equal = [&](FaultTarget of) {
-        return said(pair.failing->out, of) == said(pair.right->out, of) &&
+        return sensed(pair.failing->out, of) == sensed(pair.right->out, of) &&
                spoke(pair.failing->out, of) == spoke(pair.right->out, of);
       };
       pair.fail(target, kind);
@@ -304,7 +304,7 @@ TEST_CASE("with a ramp a fault grows evenly to its size") {
   for (int quarter = 1; quarter <= 6; ++quarter) {
     pair.step(200);  // 0.5 s
     const double off =
-        said(pair.failing->out, FaultTarget::baro).x() - said(pair.right->out, FaultTarget::baro).x();
+        sensed(pair.failing->out, FaultTarget::baro).x() - sensed(pair.right->out, FaultTarget::baro).x();
     CHECK(off / (240 * std::min(1.0, quarter / 4.0)) == Approx(1).epsilon(0.05));
   }
 }

@@ -121,19 +121,19 @@ TEST_CASE("an accelerometer off the centre of gravity feels what its own motion 
   // the second difference of where it is, less gravity, over three short steps
   const double h = 1e-4;
   std::vector<Vector3d> at;
-  Vector3d said = Vector3d::Zero();
+  Vector3d sensed = Vector3d::Zero();
   Eigen::Quaterniond q = p.state().q_nb;
   for (int i = 0; i < 3; ++i) {
     at.push_back(p.state().p_n + p.state().q_nb * r);
     if (i == 1) {
-      said = eigen(s.imu(p).specific_force_mps2);
+      sensed = eigen(s.imu(p).specific_force_mps2);
       q = p.state().q_nb;
     }
     p.advance(a, 1, h);
   }
   const Vector3d acceleration = (at[2] - 2 * at[1] + at[0]) / (h * h);
   const Vector3d expected = q.conjugate() * (acceleration - Vector3d(0, 0, 9.80665));
-  CHECK((said - expected).norm() / expected.norm() < 2e-3);
+  CHECK((sensed - expected).norm() / expected.norm() < 2e-3);
   CHECK((eigen(sensors(none()).imu(p).specific_force_mps2) - expected).norm() > 0.3);  // it matters
 }
 
@@ -190,9 +190,9 @@ TEST_CASE("digits and range are those of the part, either way") {
   suite.imu.gyro.range_radps = 0.1;
   suite.imu.gyro.step_radps = 0.03;
   Plant p = turning();
-  const Vector3d w = p.state().omega_b, said = eigen(sensors(suite).imu(p).rate_radps);
+  const Vector3d w = p.state().omega_b, rate = eigen(sensors(suite).imu(p).rate_radps);
   REQUIRE(w.cwiseAbs().maxCoeff() > 0.2);
-  for (int i = 0; i < 3; ++i) CHECK(said[i] == Approx(std::clamp(0.03 * std::round(w[i] / 0.03), -0.1, 0.1)));
+  for (int i = 0; i < 3; ++i) CHECK(rate[i] == Approx(std::clamp(0.03 * std::round(w[i] / 0.03), -0.1, 0.1)));
 }
 
 TEST_CASE("scale and cross-axis errors fill their ranges and nothing else") {
@@ -221,10 +221,10 @@ TEST_CASE("a unit that sits askew measures in its own axes") {
   RigidBody x = p.state();
   x.omega_b = {1, 0, 0};
   p.set_state(x);
-  const Vector3d said = eigen(sensors(suite).imu(p).rate_radps);  // its nose is to the right of a roll
-  CHECK(said.x() == Approx(std::cos(0.1)));
-  CHECK(said.y() == Approx(-std::sin(0.1)));
-  CHECK(said.z() == Approx(0));
+  const Vector3d sensed = eigen(sensors(suite).imu(p).rate_radps);  // its nose is to the right of a roll
+  CHECK(sensed.x() == Approx(std::cos(0.1)));
+  CHECK(sensed.y() == Approx(-std::sin(0.1)));
+  CHECK(sensed.z() == Approx(0));
 }
 
 TEST_CASE("iron and the motor's current bend the magnetic field") {
@@ -397,11 +397,11 @@ TEST_CASE("faults work on sensors from a file: off, stuck, wrong") {
   set_fault(*b, FaultTarget::baro, SensorFault::off);
   b->retune();
   for (int i = 0; i < 40; ++i) pass(*b, &level);
-  const Vector3d stuck = said(b->out, FaultTarget::gyro);
+  const Vector3d stuck = sensed(b->out, FaultTarget::gyro);
   bool silent = true;
   for (int i = 0; i < 200; ++i) {
     pass(*b, &level);
-    CHECK(said(b->out, FaultTarget::gyro) == stuck);
+    CHECK(sensed(b->out, FaultTarget::gyro) == stuck);
     silent = silent && !b->out.baro.written;
   }
   CHECK(silent);
@@ -409,7 +409,7 @@ TEST_CASE("faults work on sensors from a file: off, stuck, wrong") {
   b->params.faults.sensors_that_fail.gyro_fault_size.value = {0.5, 0, 0};
   b->retune();
   pass(*b, &level);
-  CHECK(said(b->out, FaultTarget::gyro).x() > 0.3);
+  CHECK(sensed(b->out, FaultTarget::gyro).x() > 0.3);
 }
 
 TEST_CASE("one sensor's file leaves what all others draw as it is") {
@@ -424,9 +424,9 @@ TEST_CASE("one sensor's file leaves what all others draw as it is") {
   for (int i = 0; i < 400; ++i) {
     pass(*a, &level);
     pass(*b, &level);
-    if (a->out.baro.written) CHECK(said(a->out, FaultTarget::baro) == said(b->out, FaultTarget::baro));
+    if (a->out.baro.written) CHECK(sensed(a->out, FaultTarget::baro) == sensed(b->out, FaultTarget::baro));
   }
-  CHECK(said(a->out, FaultTarget::gyro) != said(b->out, FaultTarget::gyro));
+  CHECK(sensed(a->out, FaultTarget::gyro) != sensed(b->out, FaultTarget::gyro));
 }
 
 }  // namespace sheet_test

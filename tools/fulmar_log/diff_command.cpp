@@ -75,11 +75,11 @@ void print_first(const Compared& c) {
   if (d.first) {
     const MessageDiff::First& f = *d.first;
     const std::string a = c.a.owner(f.topic, f.time_ns), b = c.b.owner(f.topic, f.time_ns);
-    std::string who = a.empty() ? "" : ", of " + a;
-    if (a != b && !b.empty()) who += (a.empty() ? ", of " : ", in the second log of ") + b;
+    std::string owner = a.empty() ? "" : ", of " + a;
+    if (a != b && !b.empty()) owner += (a.empty() ? ", of " : ", in the second log of ") + b;
     const std::string what = f.field.empty() ? "has" : f.field + " is";
     const std::string text =
-        log_tool_messages::first_difference(seconds_text(f.time_ns), printable(who), printable(f.topic),
+        log_tool_messages::first_difference(seconds_text(f.time_ns), printable(owner), printable(f.topic),
                                             printable(what), printable(f.a), printable(f.b))
             .text;
     std::printf("%s\n", text.c_str());

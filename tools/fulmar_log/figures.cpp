@@ -129,12 +129,12 @@ std::string LogFigures::owner(const std::string& topic, std::int64_t at_ns) cons
     if (c.phase) phase = c.name;
     if (!c.phase) instead[c.name] = c.after;
   }
-  std::string who = by_default->second;
+  std::string active = by_default->second;
   if (const auto p = assigned.find(phase); p != assigned.end())
-    if (const auto use = p->second.find(name); use != p->second.end()) who = use->second;
-  for (std::size_t i = 0; i < instead.size() && instead.contains(who) && !instead[who].empty(); ++i)
-    who = instead[who];
-  return who;
+    if (const auto use = p->second.find(name); use != p->second.end()) active = use->second;
+  for (std::size_t i = 0; i < instead.size() && instead.contains(active) && !instead[active].empty(); ++i)
+    active = instead[active];
+  return active;
 }
 
 LogFigures log_figures(const std::filesystem::path& file) {

@@ -89,7 +89,7 @@ TEST_CASE("the airspeed target stays in between") {
 TEST_CASE("a streak is 100 steps on end within 5 degrees and 2 m/s") {
   Streak streak;
   for (int i = 0; i < 50; ++i) CHECK(!streak.step(4.9 * deg, -4.9 * deg, 1.9));
-  CHECK(!streak.step(0, 0, 2.1));  // it begins anew
+  CHECK(!streak.step(0, 0, 2.1));  // it restarts
   for (int i = 0; i < 99; ++i) CHECK(!streak.step(-4.9 * deg, 4.9 * deg, -1.9));
   CHECK(streak.step(0, 0, 0));
   CHECK(streak.steps == 151);

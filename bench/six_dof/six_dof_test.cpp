@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The check cases of bench_six_dof, how it compares, and what it says of files that are missing or damaged.
+// The check cases of bench_six_dof, its comparison, and its messages for missing or damaged files.
 #include <doctest/doctest.h>
 #include <unistd.h>
 

@@ -169,7 +169,7 @@ TEST_CASE("a message with one of everything, and a file with its defaults") {
   PluginInfo plugin = one_component();
   const TypePtr type = copy_type(tables::route);
   tables::Route initial{};
-  initial.airspeed_mps = 1e9;  // nobody knows
+  initial.airspeed_mps = 1e9;  // unknown
   initial.position_m = {1, 2, -70};
   initial.mode = 2;
   std::strcpy(initial.label, "north");

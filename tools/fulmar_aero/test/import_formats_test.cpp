@@ -160,10 +160,10 @@ bool same(const Input& a, const Input& b) {
   };
   if (body(a) != body(b) || a.gains != b.gains || a.modes.unsorted != b.modes.unsorted) return false;
   if (a.modes.airspeed_mps != b.modes.airspeed_mps) return false;
-  // blocks of results stand alone; nothing says that there was another
+  // blocks of results are independent; a missing one cannot be detected
   if (a.polar.empty() && !b.polar.empty() && !a.body.mass_kg.known) return false;
   if (a.polar.size() > b.polar.size()) return false;
-  for (std::size_t i = 0; i < a.polar.size(); ++i)  // fewer points are told where they are far
+  for (std::size_t i = 0; i < a.polar.size(); ++i)  // fewer points are reported where they are far
     if (a.polar[i].CD.x != b.polar[i].CD.x || a.polar[i].CL != b.polar[i].CL) return false;
   return true;
 }
@@ -183,7 +183,7 @@ void refused_or_right(const std::string& what, const Make& make, const Whole& ri
     reported = !part.unused.empty() || !part.doubts.empty();
   else
     reported =
-        part.warnings.size() > right.warnings.size() || (right.xx.known && !part.xx.known);  // assumed, told
+        part.warnings.size() > right.warnings.size() || (right.xx.known && !part.xx.known);  // assumed, reported
   CHECK_MESSAGE((reported || same(part, right)), what);
 }
 

@@ -132,7 +132,7 @@ TEST_CASE("a log is data: a plugin that lies where one flew runs only when it is
   const std::string refused = "graph.plugin_not_admitted(" + own.string();
   const std::string other = refused + ",  is not what flew", foreign = refused + ",  is what flew";
   CHECK_THROWS_WITH_AS(replay_of(log), doctest::Contains(other.c_str()), Error);
-  put("_better");  // what the log says that flew, and who wrote the log?
+  put("_better");  // the plugin that the log names; its author is unknown
   CHECK_THROWS_WITH_AS(replay_of(log), doctest::Contains(foreign.c_str()), Error);
   Overrides changes;
   changes.with = {{"one", own.string() + "/Law"}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Formats beside the three great ones, and every format cut off, with decimal commas, and of another tool.
+// Formats other than AVL, XFLR5 and OpenVSP; and every format cut off, with decimal commas, and of other tools.
 #include "tools/fulmar_aero/import/airframe_yaml.hpp"
 #include "tools/fulmar_aero/import/rosflight.hpp"
 #include "tools/fulmar_aero/test/import_kit.hpp"
@@ -160,7 +160,6 @@ bool same(const Input& a, const Input& b) {
   };
   if (body(a) != body(b) || a.gains != b.gains || a.modes.unsorted != b.modes.unsorted) return false;
   if (a.modes.airspeed_mps != b.modes.airspeed_mps) return false;
-  // blocks of results are independent; a missing one cannot be detected
   if (a.polar.empty() && !b.polar.empty() && !a.body.mass_kg.known) return false;
   if (a.polar.size() > b.polar.size()) return false;
   for (std::size_t i = 0; i < a.polar.size(); ++i)  // fewer points are reported where they are far
@@ -182,8 +181,7 @@ void refused_or_right(const std::string& what, const Make& make, const Whole& ri
   if constexpr (std::is_same_v<Whole, Input>)
     reported = !part.unused.empty() || !part.doubts.empty();
   else
-    reported =
-        part.warnings.size() > right.warnings.size() || (right.xx.known && !part.xx.known);  // assumed, reported
+    reported = part.warnings.size() > right.warnings.size() || (right.xx.known && !part.xx.known);  // assumed
   CHECK_MESSAGE((reported || same(part, right)), what);
 }
 
@@ -198,7 +196,6 @@ void cut_everywhere(const Format& format, const Use& use) {
   }
 }
 
-/// Each number in turn with a decimal comma.
 template <class Use>
 void commas_everywhere(const Format& format, const Use& use) {
   for (std::size_t i = 1; i + 1 < format.text.size(); ++i) {

@@ -77,7 +77,6 @@ struct Monitor {
   static bool gone(const SensorHealth& h) {
     return h.state == SensorState::silent || h.state == SensorState::stuck || h.state == SensorState::refused;
   }
-  /// True when commands move the aircraft, according to the vehicle's report.
   bool obeyed(const Inputs& in) const { return !in.status || (in.status->in_control && !now_.link_lost); }
   struct Alarms {
     Alarm fence, gnss, pitot, radio, link, attitude, wind, drifting, estimator;
@@ -128,7 +127,6 @@ inline void Monitor::configure(const Params& p) {
     throw std::runtime_error(safety_messages::battery_limits_crossed().line());
 }
 
-/// From the estimate of ground contact; without it, from the status and a speed that carries the aircraft.
 inline bool Monitor::is_airborne(const Inputs& in, const Params& p) const {
   const double carries = 0.5 * p.airframe->limits.airspeed_min_mps;
   const VehicleState& s = *in.state;
@@ -330,7 +328,6 @@ inline void Monitor::wind(const VehicleState& s, const Params& p, double dt) {
   if (!now_.airborne) ground_wind_.step(s, w.wind_smoothing, dt);
 }
 
-/// True when the drift of the descent, by the last wind, leads out of the fence: the descent must begin now.
 inline bool Monitor::leaves_by_drift(const VehicleState& s, const Params& p) const {
   if (!polygon_.given() || !reckoned_.known() || !s.height_valid) return false;
   const Airframe& a = *p.airframe;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Formats other than AVL, XFLR5 and OpenVSP; and every format cut off, with decimal commas, and of other tools.
+// Formats other than AVL, XFLR5, OpenVSP; and each format cut off, with decimal commas, and of other tools.
 #include "tools/fulmar_aero/import/airframe_yaml.hpp"
 #include "tools/fulmar_aero/import/rosflight.hpp"
 #include "tools/fulmar_aero/test/import_kit.hpp"

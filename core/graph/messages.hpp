@@ -313,7 +313,8 @@ inline constexpr MessageText memory_exhausted{"graph.memory_exhausted",
 inline constexpr MessageText memory_size_invalid{
     "graph.memory_size_invalid",
     {"found"},
-    "'{found}' is not an amount of memory; write it with kB, MB or GB, as in 64 MB"};
+    "'{found}' is not an amount of memory; write a number above 0 and up to 1e6 with kB, MB or GB, as in "
+    "64 MB"};
 inline constexpr MessageText message_types_differ{
     "graph.message_types_differ",
     {"output", "type", "component", "input", "reason"},

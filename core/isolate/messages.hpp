@@ -46,7 +46,8 @@ inline constexpr MessageText tables_differ{
     "the ports or parameters of '{component}' differ from those that the host read"};
 inline constexpr MessageText text_too_long{"isolate.text_too_long",
                                            "a text parameter is longer than its capacity"};
-inline constexpr MessageText vehicle_not_isolated{"isolate.vehicle_not_isolated",
-                                                  "a vehicle cannot run in a separate process."};
+inline constexpr MessageText vehicle_not_isolated{
+    "isolate.vehicle_not_isolated",
+    "a vehicle cannot run in a separate process: remove 'run: process' from the component"};
 
 }  // namespace fulmar::isolate_messages

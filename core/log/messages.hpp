@@ -35,8 +35,9 @@ inline constexpr MessageText host_fields_differ{
     "log.host_fields_differ",
     {"topic", "type"},
     "the log's {topic} and this version's {type} have different fields: another version wrote the log"};
-inline constexpr MessageText index_outside_chunk{"log.index_outside_chunk",
-                                                 "a message index points outside its chunk"};
+inline constexpr MessageText index_outside_chunk{
+    "log.index_outside_chunk",
+    "a message index points outside its chunk; the file is damaged here, and fulmar log recover repairs it"};
 inline constexpr MessageText index_target_invalid{"log.index_target_invalid",
                                                   "a message index does not point at its message"};
 inline constexpr MessageText log_altered{

@@ -52,7 +52,8 @@ inline constexpr MessageText table_points_not_rising{
 inline constexpr MessageText table_second_points_missing{"flight.table_second_points_missing",
                                                          "and_over is set, so and_at must list its points"};
 inline constexpr MessageText table_second_variable_missing{
-    "flight.table_second_variable_missing", "and_at is set, so and_over must name its variable"};
+    "flight.table_second_variable_missing",
+    "and_at is set, so and_over must be alpha, beta, mach, aileron, elevator or rudder; else remove and_at"};
 inline constexpr MessageText table_values_mismatched{
     "flight.table_values_mismatched",
     {"found", "points"},

@@ -392,8 +392,8 @@ inline constexpr MessageText too_many_files{
 inline constexpr MessageText too_many_moment_tables{
     "aero.too_many_moment_tables",
     {"count"},
-    "AERORP and CG differ. The tables of the force moments about the centre of gravity make {count} tables "
-    "in total; an airframe has at most 8"};
+    "AERORP and CG differ, so each force table also makes moment tables: {count} tables in total, at most 8 "
+    "are valid. Remove tables of lift, drag or side force, or replace them by derivatives"};
 inline constexpr MessageText too_many_tables{"aero.too_many_tables",
                                              "this is the ninth table; an airframe has at most 8"};
 inline constexpr MessageText total_derivatives_missing{

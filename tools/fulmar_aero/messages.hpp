@@ -49,7 +49,8 @@ inline constexpr MessageText elevator_without_pitch{
 inline constexpr MessageText entry_form_unsupported{
     "aero.entry_form_unsupported",
     {"entry"},
-    "this command cannot edit the form of {entry}; the file is unchanged"};
+    "this command cannot edit the form of {entry}; the file is unchanged. Write a number on the line of its "
+    "key without quotes or anchor, and a section as a map without alias"};
 inline constexpr MessageText equilibrium_missing{"aero.equilibrium_missing",
                                                  "no angles and deflections balance all forces and moments; "
                                                  "`fulmar aero check` may report the wrong coefficient"};

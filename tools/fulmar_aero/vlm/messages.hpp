@@ -12,8 +12,10 @@ inline constexpr MessageText airfoil_missing{
     "aero.airfoil_missing",
     {"airfoil"},
     "the airfoil '{airfoil}' is not in this file; give an airfoil of that name in the drawing"};
-inline constexpr MessageText airfoil_not_readable{"aero.airfoil_not_readable",
-                                                  "the airfoil's coordinates cannot be read"};
+inline constexpr MessageText airfoil_not_readable{
+    "aero.airfoil_not_readable",
+    "the airfoil file is missing, or not readable. Correct the name after AFILE, which is relative to the "
+    "folder of the .avl file, or add the file"};
 inline constexpr MessageText airfoil_order_invalid{
     "aero.airfoil_order_invalid",
     "the points do not go from the trailing edge over the top to the trailing edge"};
@@ -215,7 +217,8 @@ inline constexpr MessageText symmetric_fin_unsupported{
     "aero.symmetric_fin_unsupported", "a fin that extends up and down is not supported; give two fins"};
 inline constexpr MessageText symmetry_plane_unsupported{
     "aero.symmetry_plane_unsupported",
-    "planes of symmetry are not supported; give both halves with YDUPLICATE 0"};
+    "planes of symmetry are not supported. Set iYsym and iZsym to 0, and add YDUPLICATE 0 to each surface "
+    "that represents one half only"};
 inline constexpr MessageText too_many_airfoils{"aero.too_many_airfoils",
                                                "the planform has more than 16 airfoils"};
 inline constexpr MessageText too_many_control_parts{"aero.too_many_control_parts",

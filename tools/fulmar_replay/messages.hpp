@@ -18,7 +18,8 @@ inline constexpr MessageText file_space_missing{"replay.file_space_missing", "th
 inline constexpr MessageText first_tick_missing{
     "replay.first_tick_missing",
     {"tick"},
-    "the log begins with tick {tick} of its flight; a replay begins with the first: give the file before it"};
+    "the log begins with tick {tick} of its flight, but a replay begins with tick 0. Replay the whole log, "
+    "or the first file of a split log"};
 inline constexpr MessageText folder_not_creatable{
     "replay.folder_not_creatable", {"folder"}, "cannot make a folder in {folder}"};
 inline constexpr MessageText input_not_repeatable{"replay.input_not_repeatable",

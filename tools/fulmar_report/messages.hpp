@@ -9,7 +9,10 @@ inline constexpr MessageText compression_failed{"report.compression_failed",
                                                 "zlib cannot compress: the memory is not sufficient"};
 inline constexpr MessageText log_duplicate{
     "report.log_duplicate", {"log"}, "'{log}' is given twice: name each log once"};
-inline constexpr MessageText messages_too_large{"report.messages_too_large", "its messages are too large"};
+inline constexpr MessageText messages_too_large{
+    "report.messages_too_large",
+    "the message definition in the log gives more than 1 MB a message, the limit of a report. Shorten the "
+    "lists in the definition, or replace the damaged log"};
 inline constexpr MessageText name_count_mismatch{
     "report.name_count_mismatch",
     {"expected", "found"},

@@ -17,8 +17,9 @@ inline constexpr MessageText file_not_readable{
     "reading.file_not_readable", {"file", "reason"}, "cannot read '{file}': {reason}"};
 inline constexpr MessageText file_not_regular{"reading.file_not_regular", "it is not a regular file"};
 inline constexpr MessageText line_fault{"reading.line_fault", {"line", "reason"}, "'{line}': {reason}"};
-inline constexpr MessageText list_length_invalid{"reading.list_length_invalid",
-                                                 "the length of the list is not readable"};
+inline constexpr MessageText list_length_invalid{
+    "reading.list_length_invalid",
+    "the length of the list is not valid; write [], [N] or [<=N], where N is a whole number above 0"};
 inline constexpr MessageText messages_too_large{
     "reading.messages_too_large",
     {"limit", "time"},
@@ -33,7 +34,10 @@ inline constexpr MessageText type_name_invalid{
     {"type"},
     "'{type}' is not a ROS message type, which has the form package/msg/Name"};
 inline constexpr MessageText type_nesting_invalid{
-    "reading.type_nesting_invalid", {"type"}, "{type} is nested too deeply, or contains itself"};
+    "reading.type_nesting_invalid",
+    {"type"},
+    "{type} has more than 16 levels of nested types, or contains itself. Correct this definition in the "
+    "program that writes it"};
 inline constexpr MessageText type_too_large{
     "reading.type_too_large", {"type", "field", "end"}, "{type} is too large: '{field}' ends at {end} bytes"};
 

@@ -42,6 +42,7 @@ for folder in $(git ls-files 'core/*.cpp' 'links/*.cpp' 'tools/*.cpp' 'plugins/*
   done | sort | awk '$1 == "main" { next } $1 == last { print $1 ": " file ", " $2 } { last = $1; file = $2 }'
 done | refuse "A name is given once in a folder:"
 python3 cmake/prose.py >/dev/null || python3 cmake/prose.py | refuse "Texts break docs/style.md:"
+python3 cmake/phrases.py >/dev/null || python3 cmake/phrases.py | refuse "Tests assert codes and values, not sentences:"
 python3 cmake/mutate.py --only-list 2>&1 | refuse "Each listed fault has a place of its own:"
 # Subjects of commits since the first one under this rule: `area: verb what`. A shallow clone without that commit skips the check.
 first=d2c08a6718df44440e1e08a9b19a3b70e239fb27

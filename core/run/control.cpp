@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/run/control.hpp"
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdio>
@@ -14,7 +15,6 @@
 #include "core/run/flight_impl.hpp"
 #include "core/run/messages.hpp"
 #include "core/types/named.hpp"
-#include "fulmar/message.hpp"
 #include "fulmar/quiet_thread.hpp"
 
 namespace fulmar::core {
@@ -123,8 +123,11 @@ bool FlightControl::apply(Waiting& w) {
   if (c.kind == CommandKind::request) reply = [this, &w](const char* refusal) { refuse(w, refusal); };
   const Flight::Impl::Taken taken = flight_.take(c, std::move(reply));
   if (taken == Flight::Impl::Taken::full) return false;
-  if (taken == Flight::Impl::Taken::idle)
-    return refuse(w, run_messages::component_not_active.to<Text<96>>(c.component).bytes.data());
+  if (taken == Flight::Impl::Taken::idle) {
+    std::array<char, 96> refusal;
+    run_messages::component_not_active.write(refusal.data(), refusal.size(), c.component);
+    return refuse(w, refusal.data());
+  }
   if (c.kind == CommandKind::request) return true;
   if (c.kind == CommandKind::swap) w.directory = std::make_shared<const Directory>(flight_);
   done(w);

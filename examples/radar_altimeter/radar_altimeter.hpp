@@ -37,8 +37,7 @@ struct RadarAltimeter {
   explicit RadarAltimeter(std::uint64_t seed) : random_(seed) {}
 
   RadarRange measure(const VehicleState& truth, const Params& p) {
-    const double noise_m =
-        p.noise_std * random_.normal();  // drawn even if unused: later random numbers stay the same
+    const double noise_m = p.noise_std * random_.normal();  // drawn also if unused: the later ones stay equal
     const bool lost = random_.uniform() < p.dropout;
     const double c = std::cos(truth.roll_rad) * std::cos(truth.pitch_rad);
     const double r = truth.height_m / c;

@@ -11,8 +11,7 @@ struct RadarNavigator {  // fills the role `nav`
   };
   struct Outputs {
     navigation::Outputs nav;
-    Probe radar_ratio,
-        radar_refused_ratio;  // last innovation in standard deviations; number of ranges rejected
+    Probe radar_ratio, radar_refused_ratio;  // last innovation over its std; number of rejected ranges
   };
   struct Params {
     navigation::Params nav;

@@ -86,8 +86,8 @@ class SourceWriter {
     return input.optional ? "Optional" : "In";
   }
   std::string intent() const {
-    if (c_.vehicle()) return "// A vehicle that keeps the time and says nothing true yet.\n";
-    if (c_.roles.empty()) return "// Stands beside the roles. As generated it says nothing.\n";
+    if (c_.vehicle()) return "// A vehicle that keeps the time; its outputs are constant until you fill them.\n";
+    if (c_.roles.empty()) return "// Fills no role. As generated it publishes nothing.\n";
     std::string use;
     for (const ContractRole& role : c_.roles) use += (use.empty() ? "" : " and ") + role.shipped_use;
     return std::string("// Fills the role") + (c_.roles.size() > 1 ? "s " : " ") + c_.role_words() +
@@ -126,8 +126,8 @@ class SourceWriter {
     }
     if (!passed.empty())
       text +=
-          "    // What the shipped component says. When it has served, remove it here, in the test and in\n"
-          "    // mission.yaml.\n" +
+          "    // Outputs of the shipped component, as a reference. Remove them here, in the test and in\n"
+          "    // mission.yaml when your law replaces them.\n" +
           passed;
     text += "  };\n  struct Outputs {\n";
     for (const ContractOutput& output : c_.outputs)

@@ -53,7 +53,7 @@ struct MockFlight {
   std::string at() const { return "127.0.0.1:" + std::to_string(server->port()); }
   LiveAddress target(const std::string& token = "") const { return parse_target(at(), token); }
   bool heard(const std::string& what) const {
-    for (const std::string& word : control.heard())
+    for (const std::string& word : control.received())
       if (word == what) return true;
     return false;
   }
@@ -64,7 +64,7 @@ struct MockFlight {
     REQUIRE(bytes.size() == sizeof leg);
     std::memcpy(&leg, bytes.data(), sizeof leg);
     std::ostringstream text;
-    text << control.heard().back().substr(std::strlen("request ")) << ": kind " << int{leg.kind}
+    text << control.received().back().substr(std::strlen("request ")) << ": kind " << int{leg.kind}
          << ", course " << leg.has_course << ' ' << leg.course_rad << ", position " << leg.position_m.north
          << ' ' << leg.position_m.east << ' ' << leg.position_m.down;
     return text.str();

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -21,22 +22,30 @@ namespace fulmar::path {
 }
 inline std::string path_of_waypoint(std::size_t i) { return "plan.waypoints[" + std::to_string(i) + "]"; }
 
-/// Rejects a waypoint outside the fence. One that waits for the origin is not checked.
-inline void check_fence(const Plan& plan, const safety::Fence& fence, const Origin& origin) {
-  safety::Polygon polygon;
-  polygon.set(fence, origin);
-  for (std::uint32_t i = 0; i < plan.waypoints.count; ++i) {
-    const Waypoint& w = plan.waypoints[i];
-    if (w.frame == WaypointFrame::geodetic && !origin.given) continue;
-    const double up_m = -w.position_m.down;
-    const double room_m = polygon.room_m(w.position_m.north, w.position_m.east);
-    const std::string path = path_of_waypoint(i);
-    if (room_m < 0) refuse(path, path_messages::waypoint_outside_fence(std::lround(-room_m)));
-    const Fixed height{up_m, 1};
-    if (up_m > fence.ceiling_m) refuse(path, path_messages::waypoint_above_ceiling(height, fence.ceiling_m));
-    if (up_m < fence.floor_m) refuse(path, path_messages::waypoint_below_floor(height, fence.floor_m));
+/// The fence of a plan, for its waypoints in the file and in edits.
+class PlanFence {
+ public:
+  /// Throws std::runtime_error for an invalid fence.
+  void set(const safety::Fence& fence, const Origin& origin) {
+    polygon_.set(fence, origin);
+    floor_m_ = fence.floor_m;
+    ceiling_m_ = fence.ceiling_m;
   }
-}
+  /// Why a place is not inside; empty: it is, or there is no fence. [tick]
+  std::optional<Text<80>> fault_of(const Vec3<Ned>& p) const {
+    if (!polygon_.given()) return {};
+    const double up_m = -p.down, room_m = polygon_.room_m(p.north, p.east);
+    const Fixed height{up_m, 1};
+    if (room_m < 0) return path_messages::waypoint_outside_fence.to<Text<80>>(std::lround(-room_m));
+    if (up_m > ceiling_m_) return path_messages::waypoint_above_ceiling.to<Text<80>>(height, ceiling_m_);
+    if (up_m < floor_m_) return path_messages::waypoint_below_floor.to<Text<80>>(height, floor_m_);
+    return {};
+  }
+
+ private:
+  safety::Polygon polygon_;
+  double floor_m_ = 0, ceiling_m_ = 0;
+};
 
 /// A warning of an airspeed outside of the airframe's limits; "" for one inside.
 inline std::array<char, 96> airspeed_doubt(const Plan& plan, const FlightLimits& limits) {

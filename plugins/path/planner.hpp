@@ -86,6 +86,7 @@ struct Planner {
   Plan plan_;
   Group group_;
   double lowest_m_ = 0;
+  PlanFence fence_;
   LocalFrame frame_;
   bool origin_known_ = false;
   bool doubtful_ = true;       // the plan has not been checked against the airframe
@@ -145,6 +146,8 @@ inline void Planner::configure(const Params& p) {
   if (!detail::radius_in_range(plan->turn_radius_m))
     refuse("plan.turn_radius", path_messages::turn_radius_out_of_range(plan->turn_radius_m));
   if (p.origin->given) know_origin(p.origin->lat_deg, p.origin->lon_deg, p.origin->alt_msl_m);
+  fence_ = {};
+  if (p.fence.given()) fence_.set(*p.fence, *p.origin);
   for (std::size_t i = 0; i < p.plan->waypoints.size(); ++i) {
     Waypoint w = detail::waypoint_of(p.plan->waypoints[i], path_of_waypoint(i));
     resolve(w);
@@ -156,7 +159,6 @@ inline void Planner::configure(const Params& p) {
   }
   if (plan->waypoints.size() == 1 && plan->end == PlanEnd::circuit)
     refuse("plan.waypoints", path_messages::circuit_of_one());
-  if (p.fence.given()) check_fence(*plan, *p.fence, *p.origin);
   plan_ = *plan;
   changed_ = doubtful_ = true;
 }

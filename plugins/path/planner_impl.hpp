@@ -222,6 +222,7 @@ inline Planner::Reason Planner::fault_of(const Waypoint& w) const {
   const bool placed = !geodetic || origin_known_;
   if (placed && -p.down < lowest_m_)
     return path_messages::waypoint_low.to<Text<80>>(Fixed{0 - p.down, 1}, lowest_m_);
+  if (const Reason fault = placed ? fence_.fault_of(p) : Reason{}) return fault;
   if (!std::isfinite(w.course_rad)) return path_messages::course_not_finite.c_str();
   if (!(w.airspeed_mps >= 0 && w.airspeed_mps < 1000))
     return path_messages::airspeed_not_valid.to<Text<80>>(w.airspeed_mps);

@@ -112,6 +112,6 @@ TEST_CASE("the last message of a program that ends at once comes after the buffe
   }
   kill(host.process, SIGABRT);  // as a component does
   text += host.read_all();
-  CHECK(text.find("the host crashed (abort)") != std::string::npos);
+  CHECK(text.find("app.host_crashed(abort)") != std::string::npos);
   CHECK(host.wait(60s) == 128 + SIGABRT);
 }

@@ -324,26 +324,18 @@ TEST_CASE("a waypoint outside the fence, above its ceiling or below its floor is
   }
   fence.floor_m = 20;
   fence.ceiling_m = 100;
+  PlanFence limits;
+  limits.set(fence, {});
   const auto refused = [&](double north, double east, double up) {
-    Plan plan;
-    for (const Vec3<Ned>& p : {Vec3<Ned>{0, 0, -50}, Vec3<Ned>{north, east, -up}}) {
-      Waypoint w;
-      w.position_m = p;
-      plan.waypoints.push_back(w);
-    }
-    try {
-      check_fence(plan, fence, {});
-    } catch (const std::runtime_error& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    const auto fault = limits.fault_of({north, east, -up});
+    return fault ? std::string(fault->view()) : std::string();
   };
   CHECK(refused(299, 199, 99).empty());
   CHECK(refused(-49, -99, 21).empty());
-  CHECK(refused(330, 0, 50) == "plan.waypoints[1]: path.waypoint_outside_fence(30)");
-  CHECK(refused(0, -117, 50) == "plan.waypoints[1]: path.waypoint_outside_fence(17)");
-  CHECK(refused(0, 0, 101) == "plan.waypoints[1]: path.waypoint_above_ceiling(101.0, 100)");
-  CHECK(refused(0, 0, 19) == "plan.waypoints[1]: path.waypoint_below_floor(19.0, 20)");
+  CHECK(refused(330, 0, 50) == "path.waypoint_outside_fence(30)");
+  CHECK(refused(0, -117, 50) == "path.waypoint_outside_fence(17)");
+  CHECK(refused(0, 0, 101) == "path.waypoint_above_ceiling(101.0, 100)");
+  CHECK(refused(0, 0, 19) == "path.waypoint_below_floor(19.0, 20)");
 }
 
 TEST_CASE(

@@ -26,8 +26,7 @@ struct MyLaw {
     In<VehicleState> state;  // truth in a simulation
   };
   struct Outputs {
-    OutQueue<MyLawRange, 4>
-        range;  // a queue: no reader misses a sample, and each sample has its time of validity
+    OutQueue<MyLawRange, 4> range;  // a queue: no reader misses a sample; each has its time of validity
   };
   struct Params {
     Param noise_std{0.05, "m", 0, 10, "standard deviation of a measurement"};

@@ -215,7 +215,7 @@ TEST_CASE("a component without a role has the ports that are asked for, wired, a
 TEST_CASE("a vehicle is a frame to be filled in, or a point mass that flies") {
   REQUIRE(call("new frame --role vehicle").code == 0);
   const std::string header = text_of(folder() / "frame/frame.hpp");
-  CHECK(holds(header, "  // 4. The surfaces go out."));
+  CHECK(holds(header, "  // 4. Surface commands"));
   CHECK_FALSE(holds(header, "point mass"));
   const std::string from_template = " --role vehicle --template ";
   REQUIRE(call("new toy" + from_template + "point_mass").code == 0);

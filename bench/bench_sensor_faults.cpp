@@ -2,7 +2,7 @@
 // Each sensor fails for a while during a flight of the shipped autopilot, ten seeds a fault: time until the
 // estimator's report, errors meanwhile, and time of recovery. Prints docs/sensor_faults.md and exits 1 when a
 // bound of a fault is exceeded.
-// bench_sensor_faults [--json] [--seeds N] [NAME]
+// bench_sensor_faults [--json] [--seeds N] [--with PLUGIN.so] [NAME]
 #include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -163,17 +163,19 @@ void print_reasons(const std::string& only) {
 int main(int argc, char** argv) {
   unsigned seeds = 10, misses = 0;
   bool json = false;
-  std::string only;
+  std::string only, with;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word == "--seeds" && i + 1 < argc && std::atoi(argv[i + 1]) > 0)
       seeds = static_cast<unsigned>(std::atoi(argv[++i]));
+    else if (word == "--with" && i + 1 < argc)
+      with = argv[++i];
     else if (word == "--json")
       json = true;
     else if (word[0] != '-' && only.empty())
       only = word;
     else {
-      std::fprintf(stderr, "usage: bench_sensor_faults [--json] [--seeds N] [NAME]\n");
+      std::fprintf(stderr, "usage: bench_sensor_faults [--json] [--seeds N] [--with PLUGIN.so] [NAME]\n");
       return 2;
     }
   }
@@ -183,13 +185,14 @@ int main(int argc, char** argv) {
     fs::create_directories(folder);
     std::vector<Each> usual;
     for (unsigned seed = 1; seed <= seeds; ++seed)
-      usual.push_back(fly(row("nothing"), seed, {}, folder).most);
+      usual.push_back(fly(row("nothing"), seed, {}, folder, "", with).most);
     if (!json) std::printf("%s", heading);
     nlohmann::json all = nlohmann::json::array();
     for (const Row& r : rows()) {
       if (!only.empty() && r.name != only) continue;
       Worst worst;
-      for (unsigned seed = 1; seed <= seeds; ++seed) worst.add(fly(r, seed, usual[seed - 1], folder));
+      for (unsigned seed = 1; seed <= seeds; ++seed)
+        worst.add(fly(r, seed, usual[seed - 1], folder, "", with));
       misses += missed(r, worst);
       if (json)
         all.push_back(json_of(r, worst));

@@ -164,8 +164,9 @@ class Watched {
 
 /// `set`: parameters of the aircraft in addition to those of the row.
 inline Flown fly(const Row& row, unsigned seed, const Each& usual, const fs::path& folder,
-                 const std::string& set = "") {
+                 const std::string& set = "", const std::string& estimator = "") {
   core::Overrides overrides;
+  if (!estimator.empty()) overrides.with.emplace_back("ekf", estimator);
   overrides.seed = seed;
   const core::Graph graph = core::load_mission(mission_of(row, set, folder).string(), overrides);
   return Watched(row, graph, usual).fly();

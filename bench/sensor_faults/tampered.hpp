@@ -24,6 +24,9 @@ enum class Kind : std::uint8_t {
   gnss_drift,     ///< drift of the position by `size` m/s north; the velocity stays correct
   gnss_pull,      ///< drift of position and velocity north: `size` m/s, reached by `rate` m/s2
   baro_step,      ///< step by `size` Pa
+  baro_drift,     ///< `size` Pa, at `rate` Pa/s
+  gyro_drift,     ///< about every axis `size` rad/s, at `rate` rad/s2
+  accel_step,     ///< along x and y `size` m/s2 at once
   mag_stuck,      ///< the last sample is repeated
   mag_motor,      ///< `size` T per ampere of the motor, forward and to the right in equal parts
   pitot_scale,    ///< pressure times `size`
@@ -112,6 +115,13 @@ struct Wires {
         for (double* x : {&f.x, &f.y, &f.z}) *x += p.size * random_.normal();
         for (double* x : {&w.x, &w.y, &w.z}) *x += 0.05 * p.size * random_.normal();
         break;
+      case Kind::gyro_drift:
+        for (double* x : {&w.x, &w.y, &w.z}) *x += std::min(p.size.value, p.rate * since_s_);
+        break;
+      case Kind::accel_step:
+        f.x += p.size;
+        f.y += p.size;
+        break;
       case Kind::imu_stamps: at_ns -= ++imu_count_ % 10 == 0 ? early_ns : 0; break;
       case Kind::imu_clock: at_ns -= early_ns; break;
       default: break;
@@ -150,6 +160,7 @@ struct Wires {
   }
   bool spoil(Baro& s, std::int64_t& at_ns, const Params& p) const {
     if (kind_ == Kind::baro_step) s.pressure_pa += p.size;
+    if (kind_ == Kind::baro_drift) s.pressure_pa += std::min(p.size.value, p.rate * since_s_);
     if (kind_ == Kind::baro_stamps) at_ns -= ns(p.size);
     return true;
   }

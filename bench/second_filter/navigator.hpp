@@ -1,0 +1,474 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From sensors to the filter: alignment, choice and noise of each sample, gaps, resets. It has no ports; time
+// is in seconds. Users include sensors.hpp, or estimator.hpp for the component. Needs GeographicLib, as
+// geodesy.hpp.
+#pragma once
+#include <initializer_list>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "bench/second_filter/heading.hpp"
+#include "bench/second_filter/measurements.hpp"
+#include "bench/second_filter/monitor.hpp"
+#include "bench/second_filter/params.hpp"
+#include "fulmar/eigen.hpp"
+#include "fulmar/flight/earth/geodesy.hpp"
+#include "fulmar/flight/earth/magnetic_model.hpp"
+#include "fulmar/flight/navigation/alignment.hpp"
+#include "fulmar/msg/vehicle_state.hpp"
+#include "fulmar/msg/vehicle_status.hpp"
+
+namespace fulmar::second_filter {
+
+using navigation::attitude_at_rest;
+using navigation::FieldDrift;
+using navigation::FlightAlignment;
+using navigation::Stillness;
+
+/// State of the attitude:
+///   waiting -> aligning -> running -> lost -> regained -> lost ...; lost -> running at rest;
+///   lost -> running when another unit has measured the turn; any -> running when it takes over from an
+///   active estimate; in flight aligning -> trying -> running, or back when the fixes contradict.
+enum class Mode : std::uint8_t {
+  waiting,   ///< for the first inertial sample
+  aligning,  ///< for the first attitude: at rest or in flight
+  trying,    ///< has one in flight, and waits for fixes that confirm it
+  running,   ///< aligned, with a full prior
+  lost,      ///< a gap was too long to be bridged: aligns again, keeps slow states
+  regained   ///< aligned again in flight
+};
+
+/// Available data; each flag is set and cleared on its own.
+struct Seen {
+  bool yaw = false, position = false, height = false;
+  bool origin = false;     ///< of the local frame
+  bool altitude = false;   ///< by pressure, as long as there is no origin
+  bool field = false;      ///< the Earth's magnetic field, by the model
+  bool year = false;       ///< from a receiver, for that model
+  bool baro_zero = false;  ///< the barometer's offset has begun
+};
+
+/// How often the state was set, and not moved by degrees, and by how much the last time: after minus before.
+struct Resets {
+  std::uint32_t count = 0;
+  Vector3d position_m = Vector3d::Zero(), velocity_mps = Vector3d::Zero();
+  double yaw_rad = 0, at_s = never;
+};
+
+class Navigator {  ///< from samples of sensors to the state of the filter; SI units, NED and body axes
+ public:
+  static constexpr double coasted_s = 0.02;  ///< so long without an inertial sample is a gap
+
+  Navigator() {
+    for (const int first : {theta, vel, pos, gyro_bias, accel_bias}) filter_.add_block({first, 3, 1});
+    for (const int first : {wind, gust, fix_pos, fix_vel}) filter_.add_block({first, 2, 1});
+    for (const int first : {fix_pos + 2, fix_vel + 2, +delay, +baro_bias, +port, +strength, +tube_scale,
+                            +tube_bias, +slip, +mount})
+      filter_.add_block({first, 1, 1});
+    filter_.add_block({iron, 3, 1});
+    for (const int i : {0, 1, 2, 9, 10, 11, 12, 13, 14, 19, 20, 21, 22, 23, 24}) by_air_(i) = 0;
+    all_(tube_scale) = by_air_(tube_scale) = 0;
+    by_field_.setZero();
+    for (const int i :
+         {+theta + 2, +gyro_bias, gyro_bias + 1, gyro_bias + 2, +iron, iron + 1, iron + 2, +strength, +mount})
+      by_field_(i) = 1;
+  }
+
+  /// Set-up and live changes: models of the slow errors only.
+  void tune(const Params& p) {
+    const auto set = [&](int first, double std, double walk, double time_s = 0) {
+      Block& b = filter_.block(first);
+      b.std = std;
+      b.walk = walk;
+      b.time_s = time_s;
+    };
+    filter_.unit.gyro_scale = p.gyro_scale_error;
+    filter_.unit.accel_scale = p.accel_scale_error;
+    filter_.gravity_mps2 = p.gravity;
+    filter_.wind_shear = p.wind_shear;
+    // An error that is being learnt after a fault may go on changing.
+    const auto walk = [&](const Aid& aid, double usual, double faulty) {
+      return aid.faulty(time_s_) ? std::hypot(usual, faulty) : usual;
+    };
+    set(gyro_bias, p.gyro_bias_std, walk(health_.gyro, p.gyro_bias_walk, 1e-3));
+    set(accel_bias, p.accel_bias_std, walk(health_.accel, p.accel_bias_walk, 0.05));
+    set(wind, p.wind_std, p.wind_walk);
+    const auto slow = [](const Aid& aid, double least) {
+      return std::sqrt(std::max(aid.level.slow(), least));
+    };
+    // A receiver's position is never better than it reports.
+    const double position = slow(health_.horizontal, 1), height = slow(health_.height, 1),
+                 speed = slow(health_.velocity, 0);
+    set(gust, p.gust_std * slow(health_.pitot, 0), 0, p.gust_time);
+    set(slip, p.sideslip_ratio * p.gust_std * slow(health_.pitot, 0), 0, p.sideslip_time);
+    set(strength, p.mag_scale_std, 0);
+    set(mount, p.mag_mount_std, walk(health_.heading, 0, 0.05));
+    set(fix_pos, position * fix_std_.x(), walk(health_.horizontal, 0, 2), p.gnss_position_time);
+    set(fix_pos + 2, height * fix_std_.y(), walk(health_.height, 0, 2), p.gnss_position_time);
+    set(fix_vel, speed * fix_std_.z(), walk(health_.velocity, 0, 0.5), p.gnss_speed_time);
+    set(fix_vel + 2, speed * climb_ratio * fix_std_.z(), walk(health_.velocity, 0, 0.5), p.gnss_speed_time);
+    set(delay, p.gnss_delay_std, 1e-4);
+    set(baro_bias, 100, walk(health_.baro, p.baro_walk * slow(health_.baro, 0), 1));
+    set(port, p.static_port_std, p.static_port_walk);
+    set(iron, p.hard_iron_std, p.hard_iron_walk * slow(health_.heading, 0));
+    set(tube_scale, p.pitot_scale_std, 0);
+    set(tube_bias, 0, walk(health_.pitot, 0, 2));
+    filter_.renew();
+  }
+
+  void start(const Params& p) {
+    *this = Navigator{};
+    fix_std_ = {p.gnss_horizontal_std, p.gnss_vertical_std, p.gnss_speed_std};
+    tune(p);
+    if (p.origin.given()) set_origin(p.origin->lat_deg, p.origin->lon_deg, p.origin->alt_msl_m);
+  }
+
+  /// Takes over from an estimate that flies already.
+  void resume(const VehicleState& s, const Params& p, double time_s) {
+    start(p);
+    if (s.origin_valid && !seen_.origin)
+      set_origin(s.origin_latitude_deg, s.origin_longitude_deg, s.origin_altitude_m);
+    Nominal n;
+    n.q_nb = eigen(s.attitude);
+    n.x.segment<3>(vel) = eigen(s.velocity_mps);
+    n.x.segment<3>(pos) = eigen(s.position_m);
+    n.x.segment<3>(gyro_bias) = eigen(s.gyro_bias_radps);
+    n.x.segment<3>(accel_bias) = eigen(s.accel_bias_mps2);
+    n.x.segment<2>(wind) = eigen(s.wind_mps).head<2>();
+    begin(n, p, time_s, 0.05, 0.05);
+    filter_.forget(gyro_bias, 3, 0.02);
+    for (int i = 0; i < 2; ++i)
+      filter_.forget(wind + i, 1,
+                     std::clamp(i == 0 ? s.wind_std_mps.north : s.wind_std_mps.east, 0.5, p.wind_std.value));
+    seen_.position = located_ = s.position_valid;
+    filter_.forget(pos, 3, s.position_valid ? 5 : unplaced_m);
+    seen_.yaw = true;
+    resets_ = {s.reset_count, eigen(s.reset_position_m), eigen(s.reset_velocity_mps), s.reset_yaw_rad, never};
+  }
+
+  bool aligned() const { return mode_ == Mode::running || mode_ == Mode::regained || mode_ == Mode::trying; }
+  bool regaining() const { return mode_ == Mode::lost; }  ///< not aligned since a gap
+  /// Found in flight, and the next fixes still move it: commands that follow it would step.
+  bool settling() const {
+    if (mode_ == Mode::trying) return true;
+    constexpr double tilt_std = 0.025, max_s = 0.5;
+    return mode_ == Mode::regained && time_s_ - aligned_s_ < max_s &&
+           std::max(filter_.std(theta), filter_.std(theta + 1)) > tilt_std;
+  }
+  const Seen& seen() const { return seen_; }
+  const Resets& resets() const { return resets_; }
+  bool airborne() const { return airborne_; }
+  const Filter& filter() const { return filter_; }
+  Filter& filter() { return filter_; }
+  const Health& health() const { return health_; }
+  Health& health() { return health_; }
+  LocalFrame::Geodetic origin() const { return frame_.origin(); }
+  double pitot_mps() const { return pitot_mps_; }  ///< smoothed true airspeed of the pitot alone
+  double time_s() const { return time_s_; }
+  void status(const VehicleStatus& s) { status_ = s; }
+
+  /// Fuses a scalar of the sensor with the monitor `aid`. Its noise level is that of its innovations.
+  Fused fuse(const Scalar& z, double variance, const Params& p, Aid& aid) {
+    const Fused fused = filter_.fuse(z, aid.level.white() * variance, p.gate, all_, aid.insists(time_s_));
+    aid.record(fused, time_s_, airborne_);
+    health_.refused += !fused.accepted;
+    return fused;
+  }
+
+  /// One inertial sample, valid at `time_s`. False: it is not newer than the last one and was ignored.
+  bool imu(const Vector3d& omega_b, const Vector3d& f_b, double time_s, const Params& p) {
+    const double dt = time_s - time_s_;
+    if (mode_ != Mode::waiting && !(dt > 0)) return false;
+    time_s_ = time_s;
+    health_.felt(omega_b, f_b);
+    learn_noise(omega_b, f_b, dt, p);
+    if (mode_ == Mode::waiting) {
+      mode_ = Mode::aligning;
+      return true;
+    }
+    if (aligned() && dt > p.max_coast) lose();
+    still_.update(omega_b, f_b, dt);
+    resting_ = still_.still() && at_rest_by_others(p);
+    if (!aligned()) {
+      flight_.imu(omega_b - filter_.state().at<3>(gyro_bias), f_b - filter_.state().at<3>(accel_bias), dt);
+      if (resting_) align_at_rest(p);
+      return true;
+    }
+    const Vector3d v = filter_.state().v_n();
+    filter_.predict(omega_b, f_b, dt);
+    heading_.felt(filter_.R_nb() * filter_.specific_force_b(), dt, time_s_);
+    const Vector3d ahead = filter_.state().through_air_n().normalized();
+    late_mps_ = (late_mps_ + (filter_.state().v_n() - v).dot(ahead)) * std::exp(-dt / late_s);
+    if (dt > coasted_s) {  // between two samples far apart the rates were not on a straight line
+      filter_.inflate(theta, 3, 0.3 * p.gap_rate_std * dt * dt);
+      filter_.inflate(vel, 3, 0.3 * p.gap_accel_std * dt * dt);
+    }
+    // A saturated unit reports less than the motion.
+    if (airborne_ && health_.rates.clipped()) filter_.inflate(theta, 3, 2 * p.gap_rate_std * std::sqrt(dt));
+    if (airborne_ && health_.forces.clipped()) filter_.inflate(vel, 3, p.gap_accel_std * std::sqrt(dt));
+    if (resting_ && time_s_ - rest_fused_s_ > 0.05) rest();
+    update_airborne(p);
+    if (airborne_ && seen_.yaw && time_s_ - sideslip_s_ > 0.1 - 1e-4) sideslip(p);
+    // Before the wind is found, and after saturation, the estimate is off for other reasons.
+    if (time_s_ - airborne_since_s_ < settled_s || time_s_ - clipped_s_ < settled_s) {
+      filter_.begin_jumps();
+      if (time_s_ - clipped_s_ < settled_s) heading_.clear();
+    }
+    if (airborne_ && time_s_ - judged_s_ > 0.1) {
+      judged_s_ = time_s_;
+      found(filter_.find_fault(fault_ratio), p);
+    }
+    if (time_s_ - tuned_s_ > 1) {
+      tuned_s_ = time_s_;
+      tune(p);
+    }
+    return true;
+  }
+
+  /// Bridges a gap that is too long to be coasted by `turn_b`, the rotation of the body measured by another
+  /// unit. The air-relative velocity in body axes stays.
+  void bridge(const Quaterniond& turn_b) {
+    constexpr double tilt_std = 0.01, tilt_rate = 0.01, accel_std = 1;  // rad, rad/s, m/s2: of the other unit
+    const double T = time_s_ - filter_.time_s();
+    Nominal n = filter_.state();
+    const Vector3d v_before = n.v_n(), air_n = n.air_n(), u_b = n.q_nb.conjugate() * n.through_air_n();
+    n.q_nb = (n.q_nb * turn_b).normalized();
+    n.x.segment<3>(vel) = n.q_nb * u_b + air_n;
+    n.x.segment<3>(pos) += 0.5 * T * (v_before + n.v_n());
+    filter_.inflate(theta, 3, tilt_std + tilt_rate * T);
+    filter_.inflate(vel, 3, accel_std * T);
+    filter_.inflate(pos, 3, accel_std * T * T);
+    filter_.forget(gust, 2, filter_.block(gust).std);
+    filter_.restart(n, time_s_);
+    mode_ = Mode::running;
+    aligned_s_ = time_s_;
+  }
+
+  void gnss(const Gnss& g, double valid_s, const Params& p);
+  void mag(const Vector3d& field_b, const Params& p);
+  void baro(double pressure_pa, const Params& p);
+  void pitot(double pressure_pa, const Params& p);
+
+ private:
+  static constexpr double fault_ratio = 60;  ///< twice the logarithm of a likelihood: 7.7 standard deviations
+  static constexpr double settled_s = 25;    ///< after a take-off the wind is found
+  static constexpr double climb_ratio = 2;   ///< vertical over horizontal error of a velocity
+  static constexpr double unplaced_m = 1e3;  ///< standard deviation of an unknown position
+  static constexpr double late_s = 0.1;      ///< by which an airspeed may be late
+
+  /// The accuracy that a receiver reports, or a default where it reports none.
+  static double known(double reported, double otherwise, double floor) {
+    return std::max(reported > 0 && reported < 1e6 ? reported : otherwise, floor);
+  }
+
+  /// A saturated sample has no noise of its own, and the part that was cut off is still missing afterwards.
+  void learn_noise(const Vector3d& omega_b, const Vector3d& f_b, double dt, const Params& p) {
+    constexpr double clipped_for_s = 10;
+    if (health_.rates.was_clipped() || health_.forces.was_clipped()) clipped_s_ = time_s_;
+    const bool reported = time_s_ - clipped_s_ < clipped_for_s;
+    if (!reported) {
+      gyro_noise_.sampled(omega_b, dt);
+      accel_noise_.sampled(f_b, dt);
+    }
+    filter_.unit.gyro = reported ? p.gyro_noise.value : gyro_noise_.density(p.gyro_noise);
+    filter_.unit.accel = reported ? p.accel_noise.value : accel_noise_.density(p.accel_noise);
+  }
+
+  void set_origin(double lat_deg, double lon_deg, double alt_m) {
+    frame_ = LocalFrame(lat_deg, lon_deg, alt_m);
+    seen_.origin = true;
+    altitude_m_ = alt_m;
+    magnetic_model(lat_deg, lon_deg, alt_m);
+  }
+  void magnetic_model(double lat_deg, double lon_deg, double alt_m) {
+    field_n_ = magnetic_field_ned(lat_deg, lon_deg, alt_m, year_);
+    seen_.field = true;
+  }
+  double declination() const { return std::atan2(field_n_.y(), field_n_.x()); }
+
+  /// A smooth flight looks like rest to the inertial unit: another sensor has to confirm rest.
+  bool at_rest_by_others(const Params& p) const {
+    const bool gnss_slow = time_s_ - gnss_s_ < 2 && gnss_speed_ < 1.5,
+               gnss_fast = time_s_ - gnss_s_ < 2 && gnss_speed_ >= 1.5;
+    const bool pitot_slow = time_s_ - pitot_s_ < 1 && pitot_mps_ < p.min_airspeed;
+    const bool stands_again =
+        regaining() && gnss_slow && !(time_s_ - pitot_s_ < 1 && pitot_mps_ >= p.min_airspeed);
+    if (gnss_fast || (status_ && status_->armed && !stands_again)) return false;
+    return status_ || gnss_slow || pitot_slow;
+  }
+
+  void begin(const Nominal& n, const Params& p, double time_s, double tilt_std, double yaw_std) {
+    Eigen::Matrix<double, 15, 1> std;
+    std << tilt_std, tilt_std, yaw_std, Vector3d::Ones(), unplaced_m * Vector3d::Ones(),
+        p.gyro_bias_std * Vector3d::Ones(), p.accel_bias_std * Vector3d::Ones();
+    time_s_ = time_s;
+    filter_.reset(n, std, time_s);
+    mode_ = Mode::running;
+    aligned_s_ = time_s;
+    seen_.yaw = yaw_std < 0.5;
+  }
+
+  /// After a gap that was too long to be bridged: attitude lost, alignment begins.
+  void lose() {
+    if (mode_ == Mode::trying) return try_again();
+    mode_ = Mode::lost;
+    resting_ = false;
+    rest_since_s_ = never;
+    flight_.clear();
+  }
+  /// The first attitude in flight was none: from the beginning.
+  void try_again() {
+    mode_ = Mode::aligning;
+    filter_.restart({}, time_s_);
+    seen_.yaw = seen_.position = seen_.height = seen_.baro_zero = false;
+    flight_.clear();
+  }
+  /// Aligned again after a gap: new attitude and velocity. Slow states are kept with larger standard
+  /// deviations.
+  void begin_again(const Quaterniond& q_nb, const Vector3d& v_n, const Params& p, double tilt_std,
+                   double yaw_std) {
+    const double gap = std::sqrt(std::max(time_s_ - filter_.time_s(), 0.0));
+    Nominal n = filter_.state();
+    n.q_nb = q_nb;
+    n.x.segment<3>(vel) = v_n;
+    n.x.segment<2>(gust).setZero();
+    filter_.forget(theta, 2, tilt_std);
+    filter_.forget(theta + 2, 1, yaw_std);
+    filter_.forget(vel, 3, 1);
+    filter_.forget(pos, 3, unplaced_m);
+    filter_.forget(gust, 2, filter_.block(gust).std);
+    filter_.inflate(gyro_bias, 3, std::max(p.gyro_bias_walk * gap, 5e-3));
+    filter_.inflate(accel_bias, 3, std::max(p.accel_bias_walk * gap, 0.02));
+    filter_.inflate(wind, 2, std::max(p.wind_walk * gap, 0.3));
+    filter_.inflate(baro_bias, 1, p.baro_walk * gap);
+    filter_.inflate(port, 1, p.static_port_walk * gap);
+    filter_.restart(n, time_s_);
+    mode_ = Mode::regained;
+    aligned_s_ = time_s_;
+    seen_.yaw = yaw_std < 0.5;
+  }
+
+  void align_at_rest(const Params& p) {
+    if (rest_since_s_ == never) rest_since_s_ = time_s_;  // flight time may be negative
+    const bool has_mag = time_s_ - mag_s_ < 0.5;
+    if (!has_mag && time_s_ - rest_since_s_ < 2) return;  // a magnetometer may still wake up
+    const bool again = regaining();
+    const Nominal before = filter_.state();
+    Nominal n;
+    const Vector3d f_b = still_.f();
+    n.q_nb = has_mag ? attitude_at_rest(f_b, mag_b_, declination()) : attitude_at_rest(f_b);
+    n.x.segment<3>(gyro_bias) = still_.omega();
+    // At rest only the accelerometers observe the tilt, and tilt gives the yaw by the dip of the field: no
+    // priors of their own, the updates at rest tie them to the prior of the accelerometer bias.
+    begin(n, p, time_s_, 0.5, has_mag ? 1 : 1.8);
+    seen_.yaw = has_mag;
+    seen_.position = seen_.height = seen_.baro_zero = false;
+    filter_.forget(gyro_bias, 3, 0.01);
+    if (again) count_reset(before);
+    rest();
+    if (has_mag) {
+      strength_ = mag_b_.norm();
+      mag(mag_b_, p);
+    }
+  }
+
+  void align_in_flight(const Gnss& g, double time_s, const Params& p) {
+    const Vector3d v_n = eigen(g.velocity_mps);
+    const bool has_mag = seen_.field && time_s_ - mag_s_ < 0.5;
+    const Vector3d wind_n(filter_(wind), filter_(wind + 1), 0);
+    const auto found =
+        flight_.fix(v_n, {p.gravity, has_mag ? &field_n_ : nullptr, regaining() ? &wind_n : nullptr,
+                          std::clamp(time_s_ - time_s, 0.0, 1.0)});
+    if (!found || v_n.head<2>().norm() < p.min_airspeed) return;
+    if (regaining())
+      regain(g, *found, has_mag, time_s, p);
+    else
+      begin_in_flight(g, *found, time_s, p);
+  }
+
+  void rest() {
+    rest_fused_s_ = time_s_;
+    for (int i = 0; i < 3; ++i) filter_.fuse(zero_velocity(filter_, i), 0.05 * 0.05, 1e3, all_);
+    for (int i = 0; i < 3; ++i)
+      filter_.fuse(zero_rate(filter_, i, still_.omega()(i)), 2e-3 * 2e-3, 1e3, all_);
+  }
+
+  void update_airborne(const Params& p) {
+    const double limit = airborne_ ? 0.7 * p.min_airspeed : p.min_airspeed;
+    const double Va = filter_.state().through_air_n().norm();
+    const bool fast = Va > limit || (time_s_ - pitot_s_ < 1 && pitot_mps_ > limit &&
+                                     filter_.state().v_n().norm() > 0.5 * limit);
+    const bool before = airborne_;
+    airborne_ = fast && !resting_ && !(status_ && !status_->armed && status_->on_ground);
+    if (airborne_ != before) airborne_since_s_ = time_s_;
+  }
+
+  /// The sensor of a fault is named for as long as its error exceeds what its model expects.
+  void found(const Fault& fault, const Params& p) {
+    if (fault.state < 0) return;
+    if (fault.state == theta + 2) filter_.inflate(mount, 1, 2 * fault.size);
+    for (const auto& [first, count, aid] : {std::tuple{+fix_pos, 2, &health_.horizontal},
+                                            {fix_pos + 2, 1, &health_.height},
+                                            {+fix_vel, 3, &health_.velocity},
+                                            {+baro_bias, 1, &health_.baro},
+                                            {+tube_bias, 1, &health_.pitot},
+                                            {+gyro_bias, 3, &health_.gyro},
+                                            {+accel_bias, 3, &health_.accel},
+                                            {theta + 2, 1, &health_.heading}})
+      if (fault.state >= first && fault.state < first + count) aid->faulty_s = time_s_;
+    tune(p);
+  }
+
+  void sideslip(const Params& p);
+  void count_reset(const Nominal& before);
+  void place(const Gnss& g, double time_s, const Params& p);
+  void forget_level();
+  void begin_in_flight(const Gnss& g, const FlightAlignment::Found& found, double time_s, const Params& p);
+  void try_attitude(const Params& p);
+  void regain(const Gnss& g, const FlightAlignment::Found& found, bool has_mag, double time_s,
+              const Params& p);
+  void collect_origin(const Gnss& g, const Params& p);
+  void accuracy(const Gnss& g, const Params& p);
+  Filter::Past at_fix(double valid_s, const Params& p) const;
+  Vector3d acceleration_at(double time_s) const;
+  void bound_delay(const Params& p);
+  bool within(std::initializer_list<double> ratios, const Params& p, Aid& aid);
+  void gnss_velocity(const Gnss& g, double valid_s, const Params& p);
+  void gnss_position(const Gnss& g, double valid_s, const Params& p);
+  void test_heading(const Vector3d& v_n, double std_mps, double valid_s, const Params& p);
+  void yaw_from_course(const Vector3d& v_n);
+  void yaw_from_field(const Vector3d& field_b);
+
+  Filter filter_;
+  Vector all_ = Vector::Ones(), by_air_ = Vector::Ones(),
+         by_field_;  ///< gains: 0 where a measurement does not correct
+  LocalFrame frame_;
+  Stillness still_;
+  FlightAlignment flight_;
+  HeadingTest heading_;
+  Health health_;
+  Vector3d fix_std_ = Vector3d::Ones();  ///< horizontal, vertical, speed: as the receiver reports them
+  Vector3d field_n_{2e-5, 0, 4e-5}, mag_b_ = Vector3d::Zero();
+  double strength_ = 0;  ///< of the field as the magnetometer measures it, in its unit
+  Vector3d origin_sum_ = Vector3d::Zero();
+  Air air_;
+  UnitNoise gyro_noise_, accel_noise_;
+  double motion_level_ = 0, fix_s_ = never;
+  double clipped_s_ = never, tuned_s_ = never, judged_s_ = never, airborne_since_s_ = never;
+  double year_ = 2026.0, altitude_m_ = 0;  ///< of the origin; without one: by pressure
+  double time_s_ = 0, aligned_s_ = 0, rest_since_s_ = never, rest_fused_s_ = never, sideslip_s_ = never;
+  double gnss_s_ = never, gnss_speed_ = 0, mag_s_ = never, mag_fused_s_ = never, pitot_s_ = never,
+         pitot_mps_ = 0, baro_s_ = never, baro_pa_ = 0;
+  double late_mps_ = 0;  ///< change of the airspeed within `late_s`
+  std::int64_t origin_count_ = 0;
+  Mode mode_ = Mode::waiting;
+  Resets resets_;
+  Seen seen_;
+  std::optional<VehicleStatus> status_;  ///< the last one of the vehicle
+  bool located_ = false;                 ///< has had a position: the next that is set is a reset
+  bool resting_ = false;                 ///< at rest by the inertial unit and another sensor
+  bool airborne_ = false;                ///< in flight: alpha, beta and the pitot are valid
+};
+
+}  // namespace fulmar::second_filter

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Updates of the second formulation against the textbook; heading by accelerations and levels of noise
+// against simulated sequences.
+#include <doctest/doctest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "bench/second_filter/filter.hpp"
+#include "bench/second_filter/heading.hpp"
+#include "bench/second_filter/monitor.hpp"
+#include "fulmar/random.hpp"
+
+namespace second_filter_update_test {
+
+using namespace fulmar;
+using namespace fulmar::second_filter;
+using fulmar::second_filter::Vector;
+
+namespace {
+
+Vector3d normal(Random& r) { return {r.normal(), r.normal(), r.normal()}; }
+Scalar any_measurement(Random& r, double innovation) {
+  Scalar z;
+  for (int i = 0; i < size; ++i) z.H(i) = i % 4 ? r.normal() : 0;
+  z.innovation = innovation;
+  return z;
+}
+/// So that everything is correlated with everything.
+Filter mixed(Random& r) {
+  Nominal n;
+  n.q_nb = exp_map(normal(r));
+  for (int i = 3; i < size; ++i) n.x(i) = r.normal();
+  Filter f;
+  f.reset(n, Eigen::Matrix<double, 15, 1>::Constant(0.1), 0);
+  f.inflate(0, size, 0.3);
+  for (int i = 0; i < 20; ++i) f.fuse(any_measurement(r, 0), 0.5, 1e9, Vector::Ones());
+  return f;
+}
+
+/// Error of the heading and its standard deviation after a minute at 50 Hz. The aircraft turns with
+/// `accel_mps2`, to the left and to the right; fixes at 5 Hz arrive 0.15 s late.
+HeadingTest heading(double error_rad, double accel_mps2, std::uint64_t seed, double begin_s = 0) {
+  Random r(seed);
+  HeadingTest test;
+  const Eigen::Rotation2Dd to_estimate(-error_rad);
+  const auto accel = [&](double t) {  // N, E of the truth
+    const double a = accel_mps2 * std::sin(0.5 * t), course = 0.3 * t;
+    return Vector2d(-a * std::sin(course), a * std::cos(course));
+  };
+  std::vector<Vector2d> v_n{Vector2d(20, 0)};
+  for (int k = 1; k <= 3000; ++k) {
+    const double t = 0.02 * k;
+    v_n.push_back(v_n.back() + 0.01 * (accel(t) + accel(t - 0.02)));
+    const Vector2d f_n = to_estimate * accel(t - 0.01) + 0.2 * Vector2d(r.normal(), r.normal());
+    test.felt({f_n.x(), f_n.y(), -9.8}, 0.02, begin_s + t);
+    if (k % 10 || k < 20) continue;
+    const Vector2d late = 0.5 * (v_n[v_n.size() - 8] + v_n[v_n.size() - 9]);  // 7.5 samples
+    test.fix(late + 0.1 * Vector2d(r.normal(), r.normal()), 0.1, begin_s + t - 0.15);
+  }
+  return test;
+}
+
+/// A scalar filter of a white error of variance 1 and a slow error of variance 1 and 5 s, whose levels are
+/// learnt, beside errors that are larger: mean of each level over the last two thirds of half an hour.
+struct Levels {
+  double white = 0, slow = 0;
+};
+Levels learn(double white_std, double slow_std, bool outliers = false) {
+  Random r(11);
+  Level level;
+  Levels mean;
+  constexpr double dt = 0.1;
+  constexpr int samples = 18000;
+  const double keep = std::exp(-dt / 5);
+  double slow = slow_std * r.normal(), x = 0, P = 1;
+  for (int k = 0; k < samples; ++k) {
+    slow = keep * slow + slow_std * std::sqrt(1 - keep * keep) * r.normal();
+    x *= keep;
+    P = keep * keep * P + level.slow() * (1 - keep * keep);
+    const double S = P + level.white();
+    const double off = slow + white_std * r.normal() + (outliers && k % 100 == 0 ? 30 : 0) - x;
+    level.add(0, off / std::sqrt(S), dt);
+    x += P / S * off;
+    P *= 1 - P / S;
+    if (k < samples / 3) continue;
+    mean.white += level.white() / (samples - samples / 3);
+    mean.slow += level.slow() / (samples - samples / 3);
+  }
+  return mean;
+}
+
+double off_rad(double a, double b) { return std::abs(std::remainder(a - b, 2 * std::numbers::pi)); }
+
+}  // namespace
+
+TEST_CASE("update: an update is the textbook's, and that of Joseph where a state is considered") {
+  Random r(8);
+  for (int trial = 0; trial < 20; ++trial) {
+    Filter f = mixed(r);
+    const Covariance P = f.covariance();
+    const Nominal before = f.state();
+    const Scalar z = any_measurement(r, 0.3);
+    Vector gain = Vector::Ones();
+    if (trial % 2)
+      for (int i = 0; i < size; ++i) gain(i) = i % 3 ? 1 : 0;
+    const double R = 0.4, S = (z.H * P * z.H.transpose())(0) + R;
+    CHECK(f.expected_std(z, R) == doctest::Approx(std::sqrt(S)));
+    const Fused fused = f.fuse(z, R, 5, gain);
+    CHECK(fused.accepted);
+    CHECK(fused.ratio == doctest::Approx(0.3 / std::sqrt(S)));
+    const Vector K = (P * z.H.transpose()).cwiseProduct(gain) / S;
+    const Covariance A = Covariance::Identity() - K * z.H;
+    const Covariance expected = A * P * A.transpose() + R * K * K.transpose();
+    CHECK((f.covariance() - expected).norm() < 1e-10 * P.norm());
+    if (trial % 2 == 0) CHECK((f.covariance() - A * P).norm() < 1e-10 * P.norm());
+    CHECK((f.state().minus(before) - 0.3 * K).norm() < 1e-9);
+    for (int i = 0; i < size; i += 3) {
+      if (trial % 2 == 0) break;
+      CHECK(f.covariance()(i, i) == P(i, i));
+      if (i >= 3) CHECK(f(i) == before.x(i));
+    }
+  }
+}
+
+TEST_CASE("update: the covariance stays symmetric and positive semi-definite") {
+  Random r(9);
+  Filter f = mixed(r);
+  f.forget(pos, 3, 1000);
+  for (int k = 0; k < 100; ++k) {
+    Vector gain;
+    for (int i = 0; i < size; ++i) gain(i) = r.uniform() < 0.8 ? 1 : 0;
+    f.fuse(any_measurement(r, 0.1 * r.normal()), r.uniform(1e-4, 1), 5, gain, k % 2 == 0);
+    f.predict(normal(r), 3 * normal(r) + Vector3d(0, 0, -f.gravity_mps2), 0.01);
+    const Covariance& P = f.covariance();
+    CHECK((P - P.transpose()).cwiseAbs().maxCoeff() <= 1e-12 * P.cwiseAbs().maxCoeff());
+    if (k % 10) continue;
+    const Eigen::SelfAdjointEigenSolver<Covariance> solver(P, Eigen::EigenvaluesOnly);
+    CHECK(solver.eigenvalues().minCoeff() > -1e-10 * solver.eigenvalues().maxCoeff());
+  }
+}
+
+TEST_CASE("update: a measurement beyond the gate is rejected, or by force counts as one at the gate") {
+  Random r(10);
+  Filter f = mixed(r);
+  const Covariance P = f.covariance();
+  const Nominal before = f.state();
+  Scalar z = any_measurement(r, 0);
+  const double std = f.expected_std(z, 0.4);
+  z.innovation = -20 * std;
+  Filter forced = f;
+  CHECK_FALSE(f.fuse(z, 0.4, 5, Vector::Ones()).accepted);
+  CHECK(f.covariance() == P);
+  CHECK(f.state().x == before.x);
+  const Fused fused = forced.fuse(z, 0.4, 5, Vector::Ones(), true);
+  CHECK_FALSE(fused.accepted);
+  CHECK(fused.ratio == doctest::Approx(-20));
+  const double S = 16 * std * std;  // 20 / 5 standard deviations
+  const Vector K = P * z.H.transpose() / S;
+  CHECK((forced.covariance() - (P - S * K * K.transpose())).norm() < 1e-10 * P.norm());
+  CHECK((forced.state().minus(before) - K * z.innovation).norm() < 1e-6 * (K * z.innovation).norm() + 1e-9);
+  z.innovation = std::nan("");
+  CHECK_FALSE(forced.fuse(z, 0.4, 5, Vector::Ones(), true).accepted);
+  CHECK(forced.state().x.allFinite());
+}
+
+TEST_CASE("heading: an error of any size is found with fixes that are late") {
+  for (const double degrees : {-135.0, -20.0, 0.0, 60.0, 90.0, 180.0})
+    for (const double begin_s : {0.0, 5e4}) {
+      CAPTURE(degrees);
+      CAPTURE(begin_s);
+      const double error_rad = degrees * std::numbers::pi / 180;
+      double ratios = 0;
+      for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        const HeadingTest test = heading(error_rad, 4, seed, begin_s);
+        CHECK(off_rad(test.error_rad(), error_rad) < 5 * std::numbers::pi / 180);
+        CHECK(test.std_rad() < 0.08);
+        ratios += std::pow(off_rad(test.error_rad(), error_rad) / test.std_rad(), 2) / 20;
+      }
+      CHECK(ratios < 2);
+      CHECK(ratios > 0.01);
+    }
+}
+
+TEST_CASE("heading: the time may be negative") {
+  CHECK(heading(1, 4, 1, -1000).error_rad() == doctest::Approx(1).epsilon(0.05));
+}
+
+TEST_CASE("heading: straight flight shows nothing, and nothing is left after clear") {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    CHECK(heading(1, 0, seed).std_rad() > 0.5);
+    CHECK(heading(1, 0.05, seed).std_rad() > 0.5);
+  }
+  CHECK(HeadingTest{}.std_rad() > 100);
+  HeadingTest test = heading(1, 4, 1);
+  test.clear();
+  CHECK(test.std_rad() > 100);
+}
+
+TEST_CASE(
+    "level: the white factor converges to the true variance, the slow one to that of correlated noise") {
+  for (const double std : {0.6, 1.0, 2.0}) {
+    CAPTURE(std);
+    const Levels levels = learn(std, 1);
+    CHECK(levels.white == doctest::Approx(std * std).epsilon(0.15));
+    CHECK(levels.slow == doctest::Approx(1).epsilon(0.35));
+  }
+  const Levels levels = learn(1, 3);
+  CHECK(levels.white == doctest::Approx(1).epsilon(0.3));
+  CHECK(levels.slow == doctest::Approx(9).epsilon(0.35));
+  CHECK(learn(1, 1, true).white == doctest::Approx(1).epsilon(0.25));  // outliers count for little
+  CHECK(learn(10, 1).white < 17);                                      // bounded: 4 standard deviations
+  CHECK(learn(0.01, 0.01).white > 0.24);
+}
+
+TEST_CASE("level: a variance that is part of an innovation is learnt from it") {
+  Random r(18);
+  double log_level = 0, mean = 0;
+  for (int k = 0; k < 40000; ++k) {  // 1 + 4, of which the second is learnt
+    const double S = 1 + std::exp(log_level);
+    log_level = Level::learnt(log_level, std::sqrt(5.0) * r.normal() / std::sqrt(S), (S - 1) / S, 0.1);
+    if (k >= 10000) mean += log_level / 30000;
+  }
+  CHECK(std::exp(mean) == doctest::Approx(4).epsilon(0.1));
+}
+
+}  // namespace second_filter_update_test

@@ -71,7 +71,6 @@ struct Ekf {  ///< a component; or a member of one, with the same calls
     probes(out);
     return healthy() ? Status::ok : Status::degraded;
   }
-  /// Kind of the last published state.
   enum class Shown : std::uint8_t {
     nothing,
     measured,  ///< the filter's state, or that there is none

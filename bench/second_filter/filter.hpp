@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "bench/second_filter/faults.hpp"
+#include "bench/second_filter/past.hpp"
 
 namespace fulmar::second_filter {
 
@@ -73,7 +74,7 @@ class Filter {
     begin_jumps();
     has_sample_ = false;
     step_ = {};
-    past_count_ = 0;
+    memory_.clear();
     remember();
   }
 
@@ -180,9 +181,7 @@ class Filter {
     if (dx.head<3>().squaredNorm() > 1e-4) turn_past(dx);
     x_.add(dx);
     R_nb_ = x_.q_nb.toRotationMatrix();
-    corrected_.p += dx.segment<3>(pos);
-    corrected_.v += dx.segment<3>(vel);
-    corrected_.vt += dx.segment<3>(vel) * time_s_;
+    memory_.correct(dx.segment<3>(pos), dx.segment<3>(vel), time_s_);
   }
   void correct(int i, double dx) {
     Vector all = Vector::Zero();
@@ -219,25 +218,8 @@ class Filter {
     P_.noalias() += A * A.transpose();
   }
 
-  /// Past state by the present estimate, for late measurements. `age_s` is 0 for the present.
-  struct Past {
-    Vector3d p_n, v_n;
-    double age_s = 0;
-    bool known = false;  ///< false: older than the memory
-  };
-  Past at(double time_s) const {
-    if (time_s >= time_s_ || past_count_ == 0) return {x_.p_n(), x_.v_n(), 0, time_s >= time_s_};
-    const Memory now{time_s_, x_.p_n(), x_.v_n(), corrected_};
-    for (std::size_t i = 0; i < past_count_; ++i) {
-      const Memory& before = back(i);
-      if (before.time > time_s) continue;
-      const Memory& after = i > 0 ? back(i - 1) : now;
-      const double k = after.time > before.time ? (time_s - before.time) / (after.time - before.time) : 0;
-      const Past a = as_known_now(before), b = as_known_now(after);
-      return {a.p_n + k * (b.p_n - a.p_n), a.v_n + k * (b.v_n - a.v_n), time_s_ - time_s, true};
-    }
-    return {x_.p_n(), x_.v_n(), 0, false};
-  }
+  /// State of the past by the present estimate.
+  Past at(double time_s) const { return memory_.at(time_s, now()); }
 
   const Nominal& state() const { return x_; }
   double operator()(int i) const { return x_.x(i); }
@@ -259,15 +241,6 @@ class Filter {
     Vector3d dv = Vector3d::Zero(), turn = Vector3d::Zero();
     double time = 0;
   };
-  struct Corrections {  ///< sums over all updates; vt is weighted with their time
-    Vector3d p = Vector3d::Zero(), v = Vector3d::Zero(), vt = Vector3d::Zero();
-  };
-  struct Memory {
-    double time = 0;
-    Vector3d p = Vector3d::Zero(), v = Vector3d::Zero();
-    Corrections corrected;
-  };
-
   Vector project(const Scalar& z) const {  // P H'
     Vector PHt = Vector::Zero();
     for (int i = 0; i < size; ++i)
@@ -367,34 +340,16 @@ class Filter {
     }
   }
 
-  const Memory& back(std::size_t i) const {  // 0: the newest
-    return past_[(past_next_ + past_.size() - 1 - i) % past_.size()];
-  }
-  void remember() {
-    past_[past_next_] = {time_s_, x_.p_n(), x_.v_n(), corrected_};
-    past_next_ = (past_next_ + 1) % past_.size();
-    past_count_ = std::min(past_count_ + 1, past_.size());
-  }
+  Memory::Now now() const { return {time_s_, x_.p_n(), x_.v_n()}; }
+  void remember() { memory_.remember(now()); }
   /// A correction of the attitude applies to past states as well: their velocity changes by the specific
   /// force since then. Corrections below half a degree are left out.
   void turn_past(const Vector& dx) {
     const Vector3d R_dba = R_nb_ * dx.segment<3>(accel_bias), R_dbg = R_nb_ * dx.segment<3>(gyro_bias);
-    for (std::size_t i = 0; i < past_count_; ++i) {
-      Memory& m = past_[(past_next_ + past_.size() - 1 - i) % past_.size()];
-      const Past then = as_known_now(m);
-      const double age = then.age_s;
-      const Vector3d f_age = x_.v_n() - then.v_n - Vector3d(0, 0, gravity_mps2 * age);
-      const Vector3d dv = f_age.cross(dx.head<3>() + 0.5 * age * R_dbg) + age * R_dba;
-      m.v += dv;
-      m.p -= 0.5 * age * dv;
-    }
-  }
-  /// A correction made at time s moved position by dp and velocity by dv: at an earlier time t it means dp -
-  /// (s - t) dv.
-  Past as_known_now(const Memory& m) const {
-    const Vector3d dv = corrected_.v - m.corrected.v;
-    return {m.p + (corrected_.p - m.corrected.p) - (corrected_.vt - m.corrected.vt) + m.time * dv, m.v + dv,
-            time_s_ - m.time, true};
+    memory_.change(time_s_, [&](const Past& then) -> Vector3d {
+      const Vector3d f_age = x_.v_n() - then.v_n - Vector3d(0, 0, gravity_mps2 * then.age_s);
+      return f_age.cross(dx.head<3>() + 0.5 * then.age_s * R_dbg) + then.age_s * R_dba;
+    });
   }
 
   std::array<Jumps, 3> jumps_{Jumps(2), Jumps(8), Jumps(40)};  ///< s
@@ -414,9 +369,7 @@ class Filter {
   bool has_sample_ = false;
   Step step_;
   double motion_variance_ = 0;
-  Corrections corrected_;
-  std::array<Memory, 64> past_{};
-  std::size_t past_next_ = 0, past_count_ = 0;
+  Memory memory_;
 };
 
 }  // namespace fulmar::second_filter

@@ -11,14 +11,14 @@
 namespace fulmar::second_filter {
 
 /// Specific force integrated over the age of a late fix, NED, m/s.
-inline Vector3d force_since(const Filter& f, const Filter::Past& past) {
+inline Vector3d force_since(const Filter& f, const Past& past) {
   return f.state().v_n() - past.v_n - Vector3d(0, 0, f.gravity_mps2 * past.age_s);
 }
 
 /// Velocity of a fix, NED axis 0 to 2. A measurement that is `past.age_s` late is compared with the velocity
 /// then, whose error is dv - age (-[f]x (theta + age/2 R bg) - R ba). `accel_mps2`: along this axis at the
 /// time of the fix, the derivative by the delay.
-inline Scalar fix_velocity(const Filter& f, const Filter::Past& past, int axis, double measured_mps,
+inline Scalar fix_velocity(const Filter& f, const Past& past, int axis, double measured_mps,
                            double accel_mps2) {
   Scalar z;
   z.innovation = measured_mps - past.v_n(axis) - f(fix_vel + axis);
@@ -34,7 +34,7 @@ inline Scalar fix_velocity(const Filter& f, const Filter::Past& past, int axis, 
 }
 
 /// Position of a fix, late as above: dp - age dv + age^2/2 (-[f]x (theta + age/3 R bg) - R ba).
-inline Scalar fix_position(const Filter& f, const Filter::Past& past, int axis, double measured_m) {
+inline Scalar fix_position(const Filter& f, const Past& past, int axis, double measured_m) {
   Scalar z;
   z.innovation = measured_m - past.p_n(axis) - f(fix_pos + axis);
   z.H(pos + axis) = z.H(fix_pos + axis) = 1;

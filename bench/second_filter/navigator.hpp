@@ -124,28 +124,7 @@ class Navigator {  ///< from samples of sensors to the state of the filter; SI u
     if (p.origin.given()) set_origin(p.origin->lat_deg, p.origin->lon_deg, p.origin->alt_msl_m);
   }
 
-  /// Takes over from an estimate that flies already.
-  void resume(const VehicleState& s, const Params& p, double time_s) {
-    start(p);
-    if (s.origin_valid && !seen_.origin)
-      set_origin(s.origin_latitude_deg, s.origin_longitude_deg, s.origin_altitude_m);
-    Nominal n;
-    n.q_nb = eigen(s.attitude);
-    n.x.segment<3>(vel) = eigen(s.velocity_mps);
-    n.x.segment<3>(pos) = eigen(s.position_m);
-    n.x.segment<3>(gyro_bias) = eigen(s.gyro_bias_radps);
-    n.x.segment<3>(accel_bias) = eigen(s.accel_bias_mps2);
-    n.x.segment<2>(wind) = eigen(s.wind_mps).head<2>();
-    begin(n, p, time_s, 0.05, 0.05);
-    filter_.forget(gyro_bias, 3, 0.02);
-    for (int i = 0; i < 2; ++i)
-      filter_.forget(wind + i, 1,
-                     std::clamp(i == 0 ? s.wind_std_mps.north : s.wind_std_mps.east, 0.5, p.wind_std.value));
-    seen_.position = located_ = s.position_valid;
-    filter_.forget(pos, 3, s.position_valid ? 5 : unplaced_m);
-    seen_.yaw = true;
-    resets_ = {s.reset_count, eigen(s.reset_position_m), eigen(s.reset_velocity_mps), s.reset_yaw_rad, never};
-  }
+  void resume(const VehicleState& s, const Params& p, double time_s);
 
   bool aligned() const { return mode_ == Mode::running || mode_ == Mode::regained || mode_ == Mode::trying; }
   bool regaining() const { return mode_ == Mode::lost; }  ///< not aligned since a gap
@@ -226,24 +205,7 @@ class Navigator {  ///< from samples of sensors to the state of the filter; SI u
     return true;
   }
 
-  /// Bridges a gap that is too long to be coasted by `turn_b`, the rotation of the body measured by another
-  /// unit. The air-relative velocity in body axes stays.
-  void bridge(const Quaterniond& turn_b) {
-    constexpr double tilt_std = 0.01, tilt_rate = 0.01, accel_std = 1;  // rad, rad/s, m/s2: of the other unit
-    const double T = time_s_ - filter_.time_s();
-    Nominal n = filter_.state();
-    const Vector3d v_before = n.v_n(), air_n = n.air_n(), u_b = n.q_nb.conjugate() * n.through_air_n();
-    n.q_nb = (n.q_nb * turn_b).normalized();
-    n.x.segment<3>(vel) = n.q_nb * u_b + air_n;
-    n.x.segment<3>(pos) += 0.5 * T * (v_before + n.v_n());
-    filter_.inflate(theta, 3, tilt_std + tilt_rate * T);
-    filter_.inflate(vel, 3, accel_std * T);
-    filter_.inflate(pos, 3, accel_std * T * T);
-    filter_.forget(gust, 2, filter_.block(gust).std);
-    filter_.restart(n, time_s_);
-    mode_ = Mode::running;
-    aligned_s_ = time_s_;
-  }
+  void bridge(const Quaterniond& turn_b);
 
   void gnss(const Gnss& g, double valid_s, const Params& p);
   void mag(const Vector3d& field_b, const Params& p);
@@ -309,83 +271,14 @@ class Navigator {  ///< from samples of sensors to the state of the filter; SI u
     seen_.yaw = yaw_std < 0.5;
   }
 
-  /// After a gap that was too long to be bridged: attitude lost, alignment begins.
-  void lose() {
-    if (mode_ == Mode::trying) return try_again();
-    mode_ = Mode::lost;
-    resting_ = false;
-    rest_since_s_ = never;
-    flight_.clear();
-  }
-  /// The first attitude in flight was none: from the beginning.
-  void try_again() {
-    mode_ = Mode::aligning;
-    filter_.restart({}, time_s_);
-    seen_.yaw = seen_.position = seen_.height = seen_.baro_zero = false;
-    flight_.clear();
-  }
-  /// Aligned again after a gap: new attitude and velocity. Slow states are kept with larger standard
-  /// deviations.
+  void lose();
+  void try_again();
   void begin_again(const Quaterniond& q_nb, const Vector3d& v_n, const Params& p, double tilt_std,
-                   double yaw_std) {
-    const double gap = std::sqrt(std::max(time_s_ - filter_.time_s(), 0.0));
-    Nominal n = filter_.state();
-    n.q_nb = q_nb;
-    n.x.segment<3>(vel) = v_n;
-    n.x.segment<2>(gust).setZero();
-    filter_.forget(theta, 2, tilt_std);
-    filter_.forget(theta + 2, 1, yaw_std);
-    filter_.forget(vel, 3, 1);
-    filter_.forget(pos, 3, unplaced_m);
-    filter_.forget(gust, 2, filter_.block(gust).std);
-    filter_.inflate(gyro_bias, 3, std::max(p.gyro_bias_walk * gap, 5e-3));
-    filter_.inflate(accel_bias, 3, std::max(p.accel_bias_walk * gap, 0.02));
-    filter_.inflate(wind, 2, std::max(p.wind_walk * gap, 0.3));
-    filter_.inflate(baro_bias, 1, p.baro_walk * gap);
-    filter_.inflate(port, 1, p.static_port_walk * gap);
-    filter_.restart(n, time_s_);
-    mode_ = Mode::regained;
-    aligned_s_ = time_s_;
-    seen_.yaw = yaw_std < 0.5;
-  }
+                   double yaw_std);
 
-  void align_at_rest(const Params& p) {
-    if (rest_since_s_ == never) rest_since_s_ = time_s_;  // flight time may be negative
-    const bool has_mag = time_s_ - mag_s_ < 0.5;
-    if (!has_mag && time_s_ - rest_since_s_ < 2) return;  // a magnetometer may still wake up
-    const bool again = regaining();
-    const Nominal before = filter_.state();
-    Nominal n;
-    const Vector3d f_b = still_.f();
-    n.q_nb = has_mag ? attitude_at_rest(f_b, mag_b_, declination()) : attitude_at_rest(f_b);
-    n.x.segment<3>(gyro_bias) = still_.omega();
-    // At rest only the accelerometers observe the tilt, and tilt gives the yaw by the dip of the field: no
-    // priors of their own, the updates at rest tie them to the prior of the accelerometer bias.
-    begin(n, p, time_s_, 0.5, has_mag ? 1 : 1.8);
-    seen_.yaw = has_mag;
-    seen_.position = seen_.height = seen_.baro_zero = false;
-    filter_.forget(gyro_bias, 3, 0.01);
-    if (again) count_reset(before);
-    rest();
-    if (has_mag) {
-      strength_ = mag_b_.norm();
-      mag(mag_b_, p);
-    }
-  }
+  void align_at_rest(const Params& p);
 
-  void align_in_flight(const Gnss& g, double time_s, const Params& p) {
-    const Vector3d v_n = eigen(g.velocity_mps);
-    const bool has_mag = seen_.field && time_s_ - mag_s_ < 0.5;
-    const Vector3d wind_n(filter_(wind), filter_(wind + 1), 0);
-    const auto found =
-        flight_.fix(v_n, {p.gravity, has_mag ? &field_n_ : nullptr, regaining() ? &wind_n : nullptr,
-                          std::clamp(time_s_ - time_s, 0.0, 1.0)});
-    if (!found || v_n.head<2>().norm() < p.min_airspeed) return;
-    if (regaining())
-      regain(g, *found, has_mag, time_s, p);
-    else
-      begin_in_flight(g, *found, time_s, p);
-  }
+  void align_in_flight(const Gnss& g, double time_s, const Params& p);
 
   void rest() {
     rest_fused_s_ = time_s_;
@@ -430,7 +323,7 @@ class Navigator {  ///< from samples of sensors to the state of the filter; SI u
               const Params& p);
   void collect_origin(const Gnss& g, const Params& p);
   void accuracy(const Gnss& g, const Params& p);
-  Filter::Past at_fix(double valid_s, const Params& p) const;
+  Past at_fix(double valid_s, const Params& p) const;
   Vector3d acceleration_at(double time_s) const;
   void bound_delay(const Params& p);
   bool within(std::initializer_list<double> ratios, const Params& p, Aid& aid);

@@ -79,7 +79,7 @@ struct Flight {
                               pitot_std * r.normal()),
          pitot_std);
     for (int i = 0; i < 3; ++i) {
-      const Filter::Past now = f.at(f.time_s());
+      const Past now = f.at(f.time_s());
       fuse(fix_velocity(f, now, i, truth.x(vel + i) + truth.x(fix_vel + i) + fix_std * r.normal(), 0),
            fix_std);
       fuse(fix_position(f, now, i, truth.x(pos + i) + truth.x(fix_pos + i) + place_std * r.normal()),

@@ -193,7 +193,7 @@ TEST_CASE("fix_velocity and fix_position: value and row are those of an integrat
       CAPTURE(age);
       double t = 0;
       const Filter f = flown(r, &t);
-      const Filter::Past past = f.at(f.time_s() - age);
+      const Past past = f.at(f.time_s() - age);
       const Nominal& n = f.state();
       const Then then = back(n, t, age);
       REQUIRE(past.known);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Measurements of the navigator (navigator.hpp): GNSS, magnetometer, barometer, pitot, zero sideslip.
 #pragma once
-#include "bench/second_filter/navigator.hpp"
+#include "bench/second_filter/alignment.hpp"
 
 namespace fulmar::second_filter {
 
@@ -174,9 +174,9 @@ inline void Navigator::bound_delay(const Params& p) {
 
 /// State at the time of the fix, by the estimated delay. It may be a little ahead of the present for a fix
 /// with hardly any delay.
-inline Filter::Past Navigator::at_fix(double valid_s, const Params& p) const {
+inline Past Navigator::at_fix(double valid_s, const Params& p) const {
   const double time_s = valid_s - p.gnss_delay - filter_(delay);
-  Filter::Past past = filter_.at(std::min(time_s, time_s_));
+  Past past = filter_.at(std::min(time_s, time_s_));
   const double ahead = std::clamp(time_s - time_s_, 0.0, 0.1);
   if (ahead > 0) {
     past.p_n += ahead * past.v_n;
@@ -187,7 +187,7 @@ inline Filter::Past Navigator::at_fix(double valid_s, const Params& p) const {
 /// m/s2, NED, from the velocities around that time.
 inline Vector3d Navigator::acceleration_at(double time_s) const {
   constexpr double span_s = 0.03;
-  const Filter::Past after = filter_.at(time_s + span_s), before = filter_.at(time_s - span_s);
+  const Past after = filter_.at(time_s + span_s), before = filter_.at(time_s - span_s);
   const double span = before.age_s - after.age_s;
   if (!before.known || span < 0.5 * span_s) return Vector3d::Zero();
   return (after.v_n - before.v_n) / span;
@@ -249,7 +249,7 @@ inline void Navigator::gnss_velocity(const Gnss& g, double valid_s, const Params
   constexpr double stamp_std_s = 0.004;  // from fix to fix: a receiver solves its epochs in some ms
   const Vector3d v_n = eigen(g.velocity_mps);
   test_heading(v_n, known(g.speed_std_mps, p.gnss_speed_std, p.gnss_speed_least), valid_s, p);
-  const Filter::Past past = at_fix(valid_s, p);
+  const Past past = at_fix(valid_s, p);
   const Vector3d a_n = acceleration_at(time_s_ - past.age_s);
   const auto z = [&](int i) { return fix_velocity(filter_, at_fix(valid_s, p), i, v_n(i), a_n(i)); };
   const double white = p.gnss_white * known(g.speed_std_mps, p.gnss_speed_std, 0.01);
@@ -271,130 +271,6 @@ inline void Navigator::gnss_velocity(const Gnss& g, double valid_s, const Params
   within({off.x(), off.y(), off.z()}, p, health_.velocity);
   for (int i = 0; i < 3; ++i)
     filter_.fuse(z(i), variance(i), p.gate, all_, health_.velocity.insists(time_s_));
-}
-
-/// Sets the position to a fix: the first one.
-inline void Navigator::place(const Gnss& g, double time_s, const Params& p) {
-  if (!seen_.origin) return;
-  const Vector3d p_n = frame_.to_ned(g.latitude_deg, g.longitude_deg, g.altitude_m);
-  for (int i = 0; i < 3; ++i) filter_.correct(fix_pos + i, -filter_(fix_pos + i));
-  filter_.place(p_n + std::max(time_s_ - time_s, 0.0) * filter_.state().v_n(), filter_.state().v_n());
-  forget_level();
-  // On the ground the start height is more accurate than the receiver, unless the receiver contradicts.
-  if (resting_) {
-    Scalar z;
-    z.innovation = -p.start_height - filter_(pos + 2);
-    z.H(pos + 2) = 1;
-    filter_.fuse(z, p.start_height_std * p.start_height_std, p.gate, all_);
-  }
-  seen_.position = seen_.height = true;
-  seen_.baro_zero = false;
-}
-
-/// The position was set to that of the receiver: the sum of position and GNSS error is known.
-inline void Navigator::forget_level() {
-  filter_.forget(pos, 3, unplaced_m);
-  filter_.forget(fix_pos, 2, filter_.block(fix_pos).std);
-  filter_.forget(fix_pos + 2, 1, filter_.block(fix_pos + 2).std);
-  const Filter::Past now = filter_.at(time_s_);
-  for (int i = 0; i < 3; ++i) {
-    const double white = 0.2 * filter_.std(fix_pos + i);
-    filter_.fuse(fix_position(filter_, now, i, now.p_n(i) + filter_(fix_pos + i)), white * white, 1e9, all_);
-  }
-}
-
-/// The first attitude in flight: that of the fix, then integrated to the present by the inertial samples. Its
-/// errors come from the velocities, their age, the biases and the second direction, and correlate with them:
-/// e is the error of the mean specific force, theta = f x e / f^2, and the turn about f that keeps the second
-/// direction m in the plane of both.
-inline void Navigator::begin_in_flight(const Gnss& g, const FlightAlignment::Found& found, double time_s,
-                                       const Params& p) {
-  const double now_s = time_s_, T = found.window_s;
-  const double v_std = std::hypot(known(g.speed_std_mps, p.gnss_speed_std, p.gnss_speed_least), 0.05);
-  Nominal n;
-  n.q_nb = found.then_nb;
-  n.x.segment<3>(vel) = eigen(g.velocity_mps);
-  const FieldDrift::Bias gyro = flight_.drift().bias(p.gyro_bias_std, 2 * p.hard_iron_std);
-  const Matrix3d gyro_std = gyro.covariance.llt().matrixL();
-  n.x.segment<3>(gyro_bias) = gyro.bias_b;
-  n.q_nb = n.q_nb * exp_map(-0.5 * T * gyro.bias_b);
-  begin(n, p, std::min(time_s, now_s), 0, 0);
-  const Vector3d& f_n = found.f_n;
-  const Vector3d up = f_n.normalized(), across = found.second_n - up * up.dot(found.second_n);
-  const Matrix3d tilt = skew(f_n) / f_n.squaredNorm(),
-                 theta_e =
-                     tilt + up * (up.dot(found.second_n) / across.squaredNorm()) * across.transpose() * tilt;
-  const Matrix3d R_nb = n.q_nb.toRotationMatrix(), one = Matrix3d::Identity();
-  Eigen::Matrix<double, size, 20> A = Eigen::Matrix<double, size, 20>::Zero();
-  const auto part = [&](int row, int column) { return A.block<3, 3>(row, column); };
-  part(theta, 0) = -v_std / T * theta_e;  // of the first velocity, of the second
-  part(theta, 3) = v_std / T * theta_e;
-  part(vel, 3) = v_std * one;
-  part(theta, 6) = -0.5 * T * R_nb * gyro_std;
-  part(gyro_bias, 6) = gyro_std;
-  part(theta, 9) = p.accel_bias_std * theta_e * R_nb;
-  part(accel_bias, 9) = p.accel_bias_std * one;
-  part(theta, 12) = 0.5 * p.gap_accel_std * found.unseen_s / T * theta_e;
-  const auto row = [&](int first, int column) { return A.block<3, 1>(first, column); };
-  row(theta, 15) = p.gnss_delay_std * theta_e * found.jerk_n;
-  row(vel, 15) = p.gnss_delay_std * found.a_n;
-  A(delay, 15) = p.gnss_delay_std;
-  // The direction of the field is off by the hard iron across the specific force.
-  const double share = found.by_field ? field_n_.norm() / across.norm() : 0;
-  if (found.by_field) {
-    const Matrix3d by_iron = share * up * up.cross(across.normalized()).transpose() * R_nb;
-    part(theta, 16) = -p.hard_iron_std * by_iron;
-    part(iron, 16) = p.hard_iron_std * one;
-  }
-  row(theta, 19) = (found.by_field ? p.mag_noise * share : 0.4) * up;
-  for (const auto& [first, count] : {std::pair{+theta, 6}, {+gyro_bias, 6}, {+delay, 1}})
-    filter_.forget(first, count, 0);
-  if (found.by_field) filter_.forget(iron, 3, 0);
-  filter_.widen<20>(A);
-  strength_ = mag_b_.norm();
-  seen_.yaw = true;
-  place(g, time_s_, p);
-  located_ = seen_.position;
-  flight_.since(now_s - time_s_, [&](const Vector3d& omega_b, const Vector3d& f_b, double dt) {
-    filter_.predict(omega_b, f_b, dt);
-  });
-  time_s_ = aligned_s_ = now_s;
-  mode_ = Mode::trying;
-}
-
-/// After a fix: whether it confirms the first attitude in flight. The attitude is valid when the acceleration
-/// that it gives with the specific force is known; tilt and accelerometer biases cannot be separated before a
-/// turn.
-inline void Navigator::try_attitude(const Params& p) {
-  constexpr double max_ratio = 3;
-  const double tilt_std = std::max(0.046, 1.3 * p.accel_bias_std / p.gravity);
-  if (health_.velocity.accepted_s != time_s_) {
-    if (health_.velocity.refused_from_s != time_s_) try_again();  // the second in a row
-    return;
-  }
-  const Vector3d f_n = filter_.R_nb() * filter_.specific_force_b();
-  double std = 0;
-  for (int i = 0; i < 2; ++i) {
-    Scalar a;
-    a.H.segment<3>(theta) = -skew(f_n).row(i);
-    a.H.segment<3>(accel_bias) = -filter_.R_nb().row(i);
-    std = std::max(std, filter_.expected_std(a, 0) / filter_.gravity_mps2);
-  }
-  std = std::max({std, filter_.std(theta), filter_.std(theta + 1)});
-  if (std < tilt_std && std::abs(health_.velocity.ratio) < max_ratio) mode_ = Mode::running;
-}
-
-/// The first fix after a gap that ends an alignment.
-inline void Navigator::regain(const Gnss& g, const FlightAlignment::Found& found, bool has_mag, double time_s,
-                              const Params& p) {
-  const Nominal before = filter_.state();
-  const double tilt = known(g.speed_std_mps, p.gnss_speed_std, 0.1) / (p.gravity * found.window_s);
-  begin_again(found.q_nb, eigen(g.velocity_mps) + found.since_n, p, std::clamp(1.5 * tilt, 0.05, 0.2),
-              has_mag ? 0.15 : 0.4);
-  seen_.yaw = true;
-  place(g, time_s, p);
-  count_reset(before);
-  health_.horizontal.accepted_s = health_.velocity.accepted_s = health_.height.accepted_s = time_s_;
 }
 
 inline void Navigator::gnss_position(const Gnss& g, double valid_s, const Params& p) {

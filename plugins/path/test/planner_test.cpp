@@ -74,48 +74,6 @@ TEST_CASE("the plan of the file is published once, then only when it changes") {
   CHECK(bench.out.plan.value.jumps == first.jumps);
 }
 
-namespace {
-
-void fenced(Bench<Planner>& bench) {
-  three_waypoints(bench);
-  safety::Fence& fence = bench.params.fence.value;
-  for (const auto& [n, e] : {std::pair{-200.0, -200.0}, {1000.0, -200.0}, {1000.0, 400.0}, {-200.0, 400.0}}) {
-    safety::FencePoint corner;
-    corner.north_m = n;
-    corner.east_m = e;
-    fence.corners.push_back(corner);
-  }
-  fence.floor_m = 30;
-  fence.ceiling_m = 120;
-  bench.params.fence.is_given = true;
-}
-
-}  // namespace
-
-TEST_CASE("a waypoint outside the fence, above its ceiling or below its floor is refused by its number") {
-  const auto refusal = [](double north, double up) {
-    Bench<Planner> bench;
-    fenced(bench);
-    bench.params.plan.value.waypoints.push_back(local(north, 100, up));
-    return bench.configure() == Status::failed ? std::string(bench.error()) : std::string();
-  };
-  CHECK(refusal(900, 119) == "");
-  CHECK(refusal(3700, 70) == "plan.waypoints[3]: path.waypoint_outside_fence(2700)");
-  CHECK(refusal(900, 121) == "plan.waypoints[3]: path.waypoint_above_ceiling(121.0, 120)");
-  CHECK(refusal(900, 29) == "plan.waypoints[3]: path.waypoint_below_floor(29.0, 30)");
-}
-
-TEST_CASE("an edit in flight does not place a waypoint outside the fence") {
-  Bench<Planner> bench;
-  fenced(bench);
-  bench.step(0.01);
-  CHECK(ask(bench, edit(PlanEditKind::append, 0, 900, 100)) == "accepted");
-  CHECK(ask(bench, edit(PlanEditKind::append, 0, 3700, 100)).find("path.waypoint_outside_fence(2700)") !=
-        std::string::npos);
-  CHECK(ask(bench, edit(PlanEditKind::replace, 1, 1010, 100)).find("path.waypoint_outside_fence(10)") !=
-        std::string::npos);
-}
-
 TEST_CASE("airspeed and bank beyond the airframe are reported once, within it never") {
   const auto reports = [](double airspeed, double radius, bool known = true) {
     Bench<Planner> bench;

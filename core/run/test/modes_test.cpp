@@ -214,7 +214,8 @@ TEST_CASE("run modes that do not fit are rejected") {
       {"  sim: {fills: vehicle, use: lab/Cart, run: process}\n", "graph.vehicle_run_invalid(components.sim)"},
       {"  one: {fills: law, use: lab/Law, memory: 64 parsecs}\n", "graph.memory_size_invalid("},
   };
-  for (const auto& [components, reported] : cases) {
+  for (const auto& [part, reported] : cases) {
+    const std::string components = part;
     CAPTURE(components);
     CHECK(refused(components).find(reported) != std::string::npos);
   }

@@ -28,7 +28,9 @@ inline constexpr MessageText compression_unknown{
 inline constexpr MessageText content_not_readable{"log.content_not_readable", "the file cannot be read"};
 inline constexpr MessageText data_checksum_invalid{"log.data_checksum_invalid",
                                                    "the checksum of the data is wrong"};
-inline constexpr MessageText file_truncated{"log.file_truncated", "the file ends inside a record"};
+inline constexpr MessageText file_truncated{
+    "log.file_truncated",
+    "the file is incomplete: it ends inside a record. Copy it again, or repair it with fulmar log recover"};
 inline constexpr MessageText footer_offset_invalid{"log.footer_offset_invalid",
                                                    "the footer does not point at the summary"};
 inline constexpr MessageText host_fields_differ{

@@ -35,7 +35,9 @@ inline constexpr MessageText file_cut{"sensor_log.file_cut",
                                       {"file", "byte", "time"},
                                       "{file}: cut off: byte {byte}, at {time}; read up to there"};
 inline constexpr MessageText file_damaged{
-    "sensor_log.file_damaged", {"file", "byte", "reason"}, "{file}: byte {byte}: {reason}"};
+    "sensor_log.file_damaged",
+    {"file", "byte", "reason"},
+    "{file} is damaged at byte {byte}: {reason}. Copy it again from its source, or name another file"};
 inline constexpr MessageText file_empty{
     "sensor_log.file_empty", {"file"}, "{file} is empty; its first line has to name the columns"};
 inline constexpr MessageText file_ends_early{
@@ -108,7 +110,8 @@ inline constexpr MessageText rows_left_out{"sensor_log.rows_left_out",
 inline constexpr MessageText rows_unusable{
     "sensor_log.rows_unusable",
     {"file", "count"},
-    "{file}: none of its {count} rows can be used: the file ends early, or these are not the columns"};
+    "{file}: none of its {count} rows has a valid number in each named column. Correct the names of the "
+    "columns, or copy the file again if it is incomplete"};
 inline constexpr MessageText sensors_missing{"sensor_log.sensors_missing",
                                              "describes no sensor; there are imu, mag, baro, pitot, gnss"};
 inline constexpr MessageText times_apart{"sensor_log.times_apart",

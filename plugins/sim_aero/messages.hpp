@@ -70,7 +70,8 @@ inline constexpr MessageText start_below_ground{
 inline constexpr MessageText surface_too_small{
     "sim_aero.surface_too_small",
     {"airspeed", "needed", "surface", "limit"},
-    "no level flight at {airspeed} m/s: it takes {needed} of {surface}, which moves {limit}"};
+    "no level flight at {airspeed} m/s: it takes {needed} of {surface}, which moves {limit}; correct the "
+    "airspeed, or the limit or effect of {surface}"};
 inline constexpr MessageText thrust_missing{
     "sim_aero.thrust_missing", "the airframe has no thrust: propulsion.ct0 or propulsion.disc is missing"};
 inline constexpr MessageText thrust_too_small{"sim_aero.thrust_too_small",

@@ -9,7 +9,8 @@ inline constexpr MessageText attachment_differs{
     "log_tool.attachment_differs", {"attachment", "line"}, "{attachment} differs from line {line} on"};
 inline constexpr MessageText common_estimate_missing{
     "log_tool.common_estimate_missing",
-    "the two logs have no estimate (VehicleState) in common; nothing is compared"};
+    "the two logs have no estimate (VehicleState) in common; record the same one in both, or name other "
+    "logs"};
 inline constexpr MessageText common_figure_missing{"log_tool.common_figure_missing",
                                                    "the two results have no figure in common"};
 inline constexpr MessageText compression_failed{"log_tool.compression_failed", "cannot compress the data"};

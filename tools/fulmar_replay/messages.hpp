@@ -60,7 +60,9 @@ inline constexpr MessageText replay_log_failed{
 inline constexpr MessageText samples_between_ticks{
     "replay.samples_between_ticks", {"topic"}, "the log has samples of {topic} between two ticks"};
 inline constexpr MessageText samples_lost{
-    "replay.samples_lost", {"count", "topic"}, "the log lacks {count} samples of {topic}"};
+    "replay.samples_lost",
+    {"count", "topic"},
+    "the log lacks {count} samples of {topic}, so the replay would differ; replay a log without losses"};
 inline constexpr MessageText tick_gap_too_large{
     "replay.tick_gap_too_large",
     {"limit"},

@@ -369,8 +369,9 @@ inline constexpr MessageText table_row_invalid{
     "aero.table_row_invalid",
     {"expected", "found"},
     "expected {expected} in this row of the table; found '{found}'"};
-inline constexpr MessageText table_states_unsupported{"aero.table_states_unsupported",
-                                                      "a table over three states is not supported"};
+inline constexpr MessageText table_states_unsupported{
+    "aero.table_states_unsupported",
+    "a table over three variables is not supported; give a table over one or two"};
 inline constexpr MessageText table_too_large{
     "aero.table_too_large",
     {"rows", "columns"},

@@ -78,9 +78,10 @@ TEST_CASE("bash completes commands, options, and names of the running flight") {
       {"fulmar echo s --at 127.0.0.1:1 sl", {}},
       {"fulmar fcu ", {}},
   };
-  for (const auto& [line, offered] : offers) {
-    CAPTURE(std::string(line));
-    CHECK(completed(flight, line) == offered);
+  for (const auto& offer : offers) {
+    const std::string line(offer.first);
+    CAPTURE(line);
+    CHECK(completed(flight, line) == offer.second);
   }
   const Words all = completed(flight, "fulmar ");
   CHECK(std::find(all.begin(), all.end(), "fcu") != all.end());

@@ -19,7 +19,7 @@ namespace fulmar::second_filter {
 struct MayJump {
   int state;
   double least;
-  double after_s;  ///< in a window: what a manoeuvre does for a while is no fault
+  double after_s;  ///< in a window: a short manoeuvre may look like a fault
   bool ramp = false;
   double doubt = 1;  ///< factor on the likelihood ratio that a fault needs: gusts look like one of the pitot
 };

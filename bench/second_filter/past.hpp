@@ -19,7 +19,7 @@ struct Past {
 /// The last 64 steps of the covariance.
 class Memory {
  public:
-  /// The present: what is remembered, and from where a past state is counted.
+  /// The present state, the reference of the past ones.
   struct Now {
     double time_s = 0;
     Vector3d p_n, v_n;

@@ -37,9 +37,7 @@ fs::path find_program(const std::string& name) {
   std::istringstream folders(list ? list : "");
   for (std::string folder; std::getline(folders, folder, ':');) {
     const fs::path file = fs::path(folder) / name;
-    if (file.is_absolute() && can_run(file))
-      return file;  // the result must not depend on the working
-                    // directory
+    if (file.is_absolute() && can_run(file)) return file;  // independent of the working directory
   }
   return {};
 }

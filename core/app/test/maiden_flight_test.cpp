@@ -36,7 +36,7 @@ std::map<int, std::string> commands() {
   return list;
 }
 
-/// The words of a command; quotes join words.
+/// Arguments of a command line; quotes join them.
 std::vector<std::string> words(const std::string& command) {
   std::vector<std::string> list(1);
   bool quoted = false;

@@ -86,7 +86,8 @@ class SourceWriter {
     return input.optional ? "Optional" : "In";
   }
   std::string intent() const {
-    if (c_.vehicle()) return "// A vehicle that keeps the time; its outputs are constant until you fill them.\n";
+    if (c_.vehicle())
+      return "// A vehicle that keeps the time; its outputs are constant until you fill them.\n";
     if (c_.roles.empty()) return "// Fills no role. As generated it publishes nothing.\n";
     std::string use;
     for (const ContractRole& role : c_.roles) use += (use.empty() ? "" : " and ") + role.shipped_use;

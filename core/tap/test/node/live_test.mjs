@@ -112,7 +112,7 @@ async function calls(connection) {
   const swap = { component: "slc", file: "law.so" };
   for (const encode of [json, cdr]) {
     const answer = await call(connection, "/fulmar/swap", encode === json ? "json" : "cdr", encode(swap));
-    assert.deepEqual(answer, { accepted: false, reason: "the vehicle is armed" });
+    assert.deepEqual(answer, { accepted: false, reason: "mock.vehicle_armed" });
   }
   const view = await call(connection, "/fulmar/view", "json", json({}));
   assert.equal(view.components[0].params[0].value, 0.75);

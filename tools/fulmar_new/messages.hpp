@@ -26,10 +26,6 @@ inline constexpr MessageText folder_not_creatable{
     "new.folder_not_creatable", {"folder", "reason"}, "cannot make the folder {folder}: {reason}"};
 inline constexpr MessageText folder_not_empty{
     "new.folder_not_empty", {"folder"}, "the folder {folder} is not empty"};
-inline constexpr MessageText input_type_unknown{
-    "new.input_type_unknown",
-    {"input", "output", "source"},
-    "--in {input}={output}: no component states the message type of {source}"};
 inline constexpr MessageText mission_unknown{
     "new.mission_unknown",
     {"mission", "choices"},
@@ -97,16 +93,18 @@ inline constexpr MessageText roles_filled{
 inline constexpr MessageText roles_not_filled{"new.roles_not_filled", "fills no role of"};
 inline constexpr MessageText roles_template_missing{
     "new.roles_template_missing",
-    {"template_name"},
-    "--template {template_name}: no template covers several roles at once"};
+    {"template_name", "roles"},
+    "--template {template_name} fills one role, but --role is given for {roles}. Give --role once, or omit "
+    "--template"};
 inline constexpr MessageText template_input_unknown{
     "new.template_input_unknown",
     {"input", "template_name", "choices"},
     "--in {input}: the template {template_name} has no such input.{choices}"};
 inline constexpr MessageText template_ports_mismatch{
     "new.template_ports_mismatch",
-    {"template_name", "mission"},
-    "--template {template_name} requires other ports than {mission} has"};
+    {"template_name", "role", "mission", "of_mission", "of_template"},
+    "--template {template_name} does not fit the role {role} of {mission}. Ports of the mission alone: "
+    "{of_mission}. Ports of the template alone: {of_template}. Omit --template, or give another --mission"};
 inline constexpr MessageText template_source_missing{
     "new.template_source_missing",
     {"template_name", "source", "mission", "input"},

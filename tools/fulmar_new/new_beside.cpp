@@ -78,8 +78,8 @@ ContractInput input_of(const MissionView& mission, const Asked& asked) {
   if (!sent.known || sent.kind == FULMAR_OUT_PROBE)
     throw Error(new_messages::output_unknown(asked.name, asked.what, mission.file.filename().string(),
                                              choices_text(asked.what, sources(mission.graph))));
+  // without a type it is the output of a role: components have untyped outputs as probes alone
   input.type = sent.type ? sent.type : promised_type(mission, input.from);
-  if (!input.type) throw Error(new_messages::input_type_unknown(asked.name, asked.what, asked.what));
   // A value input would see only the last item of a queue.
   if (asked.queue || sent.kind == FULMAR_OUT_QUEUE) input.kind = FULMAR_IN_QUEUE;
   return input;

@@ -102,26 +102,39 @@ std::string ports_line(const std::string& source, const std::string& which) {
   return ", " + source.substr(at + key.size(), source.find('\n', at) - at - key.size()) + ",";
 }
 
-bool fits(const std::string& source, const Contract& contract) {
+/// Ports that differ between a template and a contract, as "name Message".
+struct PortsApart {
+  std::vector<std::string> of_mission, of_template;
+  bool known = true;  // the template names its ports
+  bool none() const { return known && of_mission.empty() && of_template.empty(); }
+};
+
+PortsApart ports_apart(const std::string& source, const Contract& contract) {
   const std::string in = ports_line(source, "in"), out = ports_line(source, "out");
-  if (in.empty() || out.empty()) return false;
-  const auto there = [](const std::string& list, const std::string& name, const std::string& type) {
-    return list.find(", " + name + " " + type + ",") != std::string::npos;
+  PortsApart apart;
+  apart.known = !in.empty() && !out.empty();
+  const auto there = [](const std::string& list, const std::string& port) {
+    return list.find(", " + port + ",") != std::string::npos;
   };
-  const auto wanted = std::count(in.begin(), in.end(), ',') - 1;
-  const auto given =
-      std::count_if(contract.inputs.begin(), contract.inputs.end(),
-                    [&](const ContractInput& input) { return there(in, input.name, input.type->name); });
-  // otherwise a further wire of the mission's role would be left out without a report
-  const bool all =
-      std::all_of(contract.inputs.begin(), contract.inputs.end(), [&](const ContractInput& input) {
-        return input.kind == FULMAR_IN_REQUEST || there(in, input.name, input.type->name);
-      });
-  return wanted == given && all &&
-         std::all_of(contract.outputs.begin(), contract.outputs.end(), [&](const ContractOutput& output) {
-           return output.optional || there(out, output.name, output.type_name);
-         });
+  std::string given = ",";
+  for (const ContractInput& input : contract.inputs) {
+    const std::string port = input.name + " " + input.type->name;
+    given += " " + port + ",";
+    // otherwise a further wire of the mission's role would be left out without a report
+    if (input.kind != FULMAR_IN_REQUEST && !there(in, port)) apart.of_mission.push_back(port);
+  }
+  for (const ContractOutput& output : contract.outputs)
+    if (const std::string port = output.name + " " + output.type_name; !output.optional && !there(out, port))
+      apart.of_mission.push_back(port);
+  for (std::size_t at = in.find(", "); at != std::string::npos && at + 2 < in.size();
+       at = in.find(", ", at + 2))
+    if (const std::string port = in.substr(at + 2, in.find(',', at + 2) - at - 2); !there(given, port))
+      apart.of_template.push_back(port);
+  return apart;
 }
+
+/// The ports of one side, for a message.
+std::string port_words(const std::vector<std::string>& ports) { return ports.empty() ? "none" : join(ports); }
 
 std::string contract_table(const Contract& contract) {
   std::string text = "| port | message | wired |\n|---|---|---|\n";
@@ -163,12 +176,17 @@ std::optional<NewSource> template_source(const NewOptions& options, const Places
   std::error_code code;
   const std::string header = file.string() + ".hpp";
   if (file.empty() || !fs::is_regular_file(header, code)) return {};
-  if (!contract.roles.empty() && !fits(read_text(header), contract)) {
-    if (options.from_template.empty()) return {};
-    throw Error(new_messages::template_ports_mismatch(options.from_template, contract.mission));
-  }
-  return NewSource{replaced(without_template_lines(read_text(header)), names),
-                   replaced(read_text(file.string() + "_test.cpp"), names)};
+  const auto filled = [&] {
+    return NewSource{replaced(without_template_lines(read_text(header)), names),
+                     replaced(read_text(file.string() + "_test.cpp"), names)};
+  };
+  if (contract.roles.empty()) return filled();
+  const PortsApart apart = ports_apart(read_text(header), contract);
+  if (apart.none()) return filled();
+  if (options.from_template.empty()) return {};
+  throw Error(new_messages::template_ports_mismatch(options.from_template, contract.roles[0].name,
+                                                    contract.mission, port_words(apart.of_mission),
+                                                    port_words(apart.of_template)));
 }
 
 /// One sentence each: the place of the component in the mission, and the phases in which it is active.
@@ -268,7 +286,7 @@ Contract asked_contract(const NewOptions& options, const Places& places, const M
   if (!options.roles.empty()) {
     if (!options.in.empty() || !options.out.empty()) throw Error(new_messages::role_with_ports());
     if (!options.from_template.empty() && options.roles.size() > 1)
-      throw Error(new_messages::roles_template_missing(options.from_template));
+      throw Error(new_messages::roles_template_missing(options.from_template, join(options.roles)));
     return read_contract(mission, options.roles);
   }
   if (options.from_template.empty()) {

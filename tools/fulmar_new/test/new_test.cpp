@@ -222,6 +222,11 @@ TEST_CASE("a vehicle is a frame to be filled in, or a point mass that flies") {
   CHECK(holds(text_of(folder() / "toy/toy.hpp"), "// A point mass"));
   CHECK(holds(call("new toy2" + from_template + "mass").words,
               "new.role_template_unknown(mass, vehicle,  Valid: point_mass.)"));
+  CHECK(holds(call("new toy2 --role outer --role inner --template point_mass").words,
+              "new.roles_template_missing(point_mass, outer, inner)"));
+  CHECK(holds(call("new toy2 --mission sensor_log" + from_template + "point_mass").words,
+              "new.template_ports_mismatch(point_mass, vehicle, sensor_log, recording Recording, actuators "
+              "Actuators, arm ArmRequest)"));
 }
 
 TEST_CASE("templates for a sensor and a planner are wired to what the mission has") {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The files of a recording. The ending of the name selects the reader.
 #pragma once
+#include <cerrno>
+#include <cstring>
 #include <fstream>
-#include <iterator>
 
 #include "bag.hpp"
 #include "csv.hpp"
@@ -47,16 +48,25 @@ class Files {
     refuse(file.key, sensor_log_messages::file_kind_unknown(file.path));
   }
 
+  static std::size_t count_of(const std::ifstream& stream) {
+    return static_cast<std::size_t>(stream.gcount());
+  }
+
   /// Several sensors may share a file, which is read once.
   File open(const Source& from, const std::string& key) {
     File file{path(from), key + ".from.file", {}};
     kind_of(file);
     const auto [at, fresh] = bytes_.try_emplace(file.path);
     if (fresh) {
+      errno = 0;
       std::ifstream stream(file.path, std::ios::binary);
-      if (!stream) refuse(file.key, sensor_log_messages::file_missing(file.path));
-      at->second.assign(std::istreambuf_iterator<char>(stream), {});
-      if (stream.bad()) refuse(file.key, sensor_log_messages::file_unreadable(file.path));
+      if (!stream && errno == ENOENT) refuse(file.key, sensor_log_messages::file_missing(file.path));
+      // read() sets badbit, where an iterator of the buffer throws, as for a folder
+      for (std::string block(1u << 16, '\0'); stream; at->second.append(block, 0, count_of(stream)))
+        stream.read(block.data(), static_cast<std::streamsize>(block.size()));
+      if (!stream.eof())
+        refuse(file.key,
+               sensor_log_messages::file_unreadable(file.path, std::strerror(errno != 0 ? errno : EIO)));
     }
     file.bytes = at->second;
     return file;

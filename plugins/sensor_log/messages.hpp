@@ -54,10 +54,11 @@ inline constexpr MessageText file_missing{
     "{file} cannot be read; --set recorded.folder=FOLDER says where the files are"};
 inline constexpr MessageText file_not_mcap{"sensor_log.file_not_mcap", {"file"}, "{file} is no MCAP file"};
 inline constexpr MessageText file_not_named{
-    "sensor_log.file_not_named",
-    "names no file; without one there is no such sensor, and its other keys mean nothing"};
+    "sensor_log.file_not_named", {"sensor"}, "names no file. Name the file of {sensor}, or remove {sensor}"};
 inline constexpr MessageText file_not_ulog{"sensor_log.file_not_ulog", {"file"}, "{file} is no ULog"};
-inline constexpr MessageText file_unreadable{"sensor_log.file_unreadable", {"file"}, "{file} cannot be read"};
+inline constexpr MessageText file_unreadable{"sensor_log.file_unreadable",
+                                             {"file", "reason"},
+                                             "{file} cannot be read: {reason}. Name a file that can be read"};
 inline constexpr MessageText folder_missing{
     "sensor_log.folder_missing",
     {"files"},

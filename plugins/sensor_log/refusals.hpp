@@ -43,7 +43,7 @@ void refuse_sensor(const Log& log, const std::string& key, bool has_columns) {
   for (std::size_t i = 0; i < log.withhold.size(); ++i)
     refuse_window(log.withhold[i], key + ".withhold[" + std::to_string(i) + "]");
   if (!used(log) && (has_columns || !log.from.time.view().empty()))
-    refuse(key + ".from.file", sensor_log_messages::file_not_named());
+    refuse(key + ".from.file", sensor_log_messages::file_not_named(key));
 }
 
 inline void refuse_description(const Description& d) {

@@ -450,7 +450,7 @@ TEST_CASE("what cannot be flown is refused in one sentence that begins with the 
         "log.imu.rate.columns[1]: sensor_log.column_unknown(gy, " + heading + ")");
   CHECK(refusal([](Description& d) {
           d.mag.field.columns = {"x", "y", "z"};
-        }) == "log.mag.from.file: sensor_log.file_not_named");
+        }) == "log.mag.from.file: sensor_log.file_not_named(log.mag)");
   CHECK(refusal([](Description& d) {
           d.imu.withhold.count = 1;
           d.imu.withhold.items[0] = {3, 2};

@@ -203,4 +203,16 @@ TEST_CASE("every beginning of a ULog, and every one with one byte changed, is re
   }
 }
 
+TEST_CASE("a folder in the place of a file is refused with the key, the path and the reason") {
+  for (const char* name : {"imu.csv", "imu.mcap", "imu.ulg"}) {
+    const Folder folder;
+    const std::filesystem::path path = folder.path / name;
+    std::filesystem::create_directory(path);
+    Description d = imu_alone();
+    d.imu.from.file = name;
+    CHECK(fly(d, folder).fault ==
+          "log.imu.from.file: sensor_log.file_unreadable(" + path.string() + ", Is a directory)");
+  }
+}
+
 }  // namespace ulog_test

@@ -82,16 +82,15 @@ std::string limit_words(const AirframeFile& file, const AircraftModel& model, co
     case TrimLimit::rudder: return surface_words(file, "rudder", f.input(model::rudder), a.rudder.limit_rad);
     case TrimLimit::throttle_high: return thrust_words(file, model, f, true);
     case TrimLimit::throttle_low: return thrust_words(file, model, f, false);
-    case TrimLimit::not_found: return aero_messages::equilibrium_missing().line();
+    case TrimLimit::not_found: return aero_messages::equilibrium_missing(file.name).line();
   }
   return "";
 }
 
 std::string no_flight(const AirframeFile& file, const AircraftModel& model, const SteadyFlight& f) {
-  return file.title() + ": " +
-         aero_messages::flight_impossible(condition_words(f.condition, model.altitude_m()),
-                                          limit_words(file, model, f), "")
-             .line();
+  return located(file.name, aero_messages::flight_impossible(condition_words(f.condition, model.altitude_m()),
+                                                             limit_words(file, model, f), ""))
+      .line();
 }
 
 FlightForces forces_of(const AircraftModel& model, const SteadyFlight& f) {

@@ -51,9 +51,11 @@ inline constexpr MessageText entry_form_unsupported{
     {"entry"},
     "this command cannot edit the form of {entry}; the file is unchanged. Write a number on the line of its "
     "key without quotes or anchor, and a section as a map without alias"};
-inline constexpr MessageText equilibrium_missing{"aero.equilibrium_missing",
-                                                 "no angles and deflections balance all forces and moments; "
-                                                 "`fulmar aero check` may report the wrong coefficient"};
+inline constexpr MessageText equilibrium_missing{
+    "aero.equilibrium_missing",
+    {"file"},
+    "no angles and deflections balance all forces and moments. Correct the coefficients that `fulmar aero "
+    "check {file}` reports. If it reports none, choose another airspeed, bank or climb"};
 inline constexpr MessageText flight_acceptable{"aero.flight_acceptable", "flown; the gains are in the file"};
 inline constexpr MessageText flight_condition{
     "aero.flight_condition",

@@ -131,7 +131,8 @@ std::vector<double> numbers_at(const Lines& lines, std::size_t line, std::size_t
   return values;
 }
 
-Pairs::Pairs(const Lines& lines, std::size_t first, std::size_t last) : lines_(lines), last_(last) {
+Pairs::Pairs(const Lines& lines, std::size_t first, std::size_t last, const char* writer)
+    : lines_(lines), last_(last), writer_(writer) {
   for (std::size_t i = first; i < last; ++i) {
     const std::string& text = lines.all[i];
     for (std::size_t equals = text.find('='); equals != std::string::npos;
@@ -166,7 +167,7 @@ const Pair& Pairs::pair(const std::string& key) const {
     if (skip_blanks(text, at + key.size()) == equals)
       refuse(lines_.where(i), fulmar::located(key, aero_messages::number_expected(shown(text, equals + 1))));
   }
-  refuse(lines_.where(last_ == 0 ? 0 : last_ - 1), aero_messages::pair_missing(key));
+  refuse(lines_.where(last_ == 0 ? 0 : last_ - 1), aero_messages::pair_missing(key, writer_));
 }
 
 Value Pairs::value(const std::string& key, double factor) const {

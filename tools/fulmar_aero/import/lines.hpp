@@ -45,8 +45,8 @@ struct Pair {
 };
 class Pairs {
  public:
-  /// Of lines first..last-1.
-  Pairs(const Lines& lines, std::size_t first, std::size_t last);
+  /// Of lines first..last-1; `writer` is the program that wrote the file.
+  Pairs(const Lines& lines, std::size_t first, std::size_t last, const char* writer);
   bool has(const std::string& key) const { return all_.count(key) > 0; }
   /// Throws core::Error with the line at which the search ended.
   Value value(const std::string& key, double factor = 1) const;
@@ -55,6 +55,7 @@ class Pairs {
  private:
   const Lines& lines_;
   std::size_t last_;
+  const char* writer_;
   std::map<std::string, Pair> all_;
 };
 

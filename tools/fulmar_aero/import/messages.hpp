@@ -283,9 +283,10 @@ inline constexpr MessageText number_not_finite{"aero.number_not_finite", "the nu
 inline constexpr MessageText option_not_positive{
     "aero.option_not_positive", {"found"}, "'{found}' is not above 0"};
 inline constexpr MessageText pair_missing{"aero.pair_missing",
-                                          {"key"},
+                                          {"key", "program"},
                                           "expected '{key} = number' up to this line; found none. The file "
-                                          "may be incomplete or of another version"};
+                                          "is cut, or of another version of {program}. Write it again with "
+                                          "{program}"};
 inline constexpr MessageText parameter_node_unknown{
     "aero.parameter_node_unknown",
     {"node"},

@@ -191,7 +191,7 @@ Input read_avl_derivatives(const Lines& lines, const ReadOptions& options) {
   if (const auto line = lines.find("Configuration:"))
     input.title = trimmed(lines.all[*line].substr(lines.all[*line].find(':') + 1));
   const double length = options.length_m > 0 ? options.length_m : 1;
-  const Pairs pairs(lines, 0, lines.all.size());
+  const Pairs pairs(lines, 0, lines.all.size(), "AVL");
   const double sign = avl_sign(lines);
   const std::size_t first = *lines.find(stability ? "Stability-axis derivatives"
                                         : body    ? "Geometry-axis derivatives"

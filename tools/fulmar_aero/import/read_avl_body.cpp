@@ -137,7 +137,7 @@ double run_factor(const Lines& lines, const Pair& pair, const std::string& key) 
 std::optional<double> length_in(const Lines& lines) {
   if (lines.has("Lunit")) return units_of(lines).length;
   if (lines.has("Run case") && lines.has("X_cg")) {
-    const Pairs pairs(lines, 0, lines.all.size());
+    const Pairs pairs(lines, 0, lines.all.size(), "AVL");
     if (pairs.has("X_cg")) return length_unit(pairs.pair("X_cg").unit);
   }
   return {};
@@ -168,7 +168,7 @@ Input read_avl_run(const Lines& lines) {
       last = *second;
       input.notes.push_back("it has several run cases; the first is taken");
     }
-  const Pairs pairs(lines, 0, last);
+  const Pairs pairs(lines, 0, last, "AVL");
   const auto in_si = [&](const char* key) {
     const Pair& pair = pairs.pair(key);
     return Value(pair.value * run_factor(lines, pair, key), lines.place(pair.line, key));

@@ -206,7 +206,7 @@ Input read_xflr5_log(const Lines& lines) {
   const LogHead head = head_of(lines, block);
   if (const auto type = lines.find("Type 7", block.head); type && *type > 0)
     input.title = trimmed(lines.all[*type - 1]);
-  const Pairs pairs(lines, block.first, block.last);
+  const Pairs pairs(lines, block.first, block.last, "XFLR5");
   input.body = body_of(lines, pairs);
   Analysis a;
   a.area_m2 = head.area;

@@ -424,7 +424,7 @@ TEST_CASE("what is broken or foreign is refused with the line and what was expec
   const std::string german = with(tern_text("tern_e.log"), "Longitudinal derivatives", "Laengsstabilitaet");
   CHECK(says(refusal([&] { aircraft({german}); }), "aero.longitudinal_derivatives_missing"));
   CHECK(says(refusal([&] { aircraft({with(tern_text("tern.st"), "Sref =", "Saaa =")}); }),
-             "aero.pair_missing(Sref)"));
+             "aero.pair_missing(Sref, AVL)"));
   CHECK(says(refusal([&] { aircraft({with(tern_text("tern.st"), "CLa =   4.800000", "CLa = **********")}); }),
              "file_0:40: CLa: aero.number_expected('**********')"));
   CHECK(says(refusal([&] { aircraft({with(tern_text("tern.st"), "CLa =   4.800000", "CLa =        NaN")}); }),

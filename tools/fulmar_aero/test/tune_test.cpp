@@ -136,7 +136,9 @@ TEST_CASE("a bandwidth that an actuator cannot give is refused, with the limit a
   }
   const Answer stall = call("tune configs/airframes/anaconda.yaml --airspeed '8 m/s'");
   CHECK(stall.code == 1);
-  CHECK(stall.says("anaconda: aero.flight_impossible(aero.flight_condition(steady level flight, 8, 0), "));
+  CHECK(
+      stall.says("configs/airframes/anaconda.yaml: aero.flight_impossible(aero.flight_condition(steady level "
+                 "flight, 8, 0), "));
 }
 
 TEST_CASE("words that mean nothing are wrong usage") {

@@ -54,7 +54,8 @@ TEST_CASE("where there is no trim the limit that stops it is told, with its plac
   for (const auto& [words, sentence] : reported) {
     const Answer answer = call("trim configs/airframes/anaconda.yaml " + words);
     CHECK(answer.code == 1);
-    CHECK(answer.says("anaconda: aero.flight_impossible(aero.flight_condition(steady "));
+    CHECK(
+        answer.says("configs/airframes/anaconda.yaml: aero.flight_impossible(aero.flight_condition(steady "));
     CHECK_MESSAGE(answer.says(sentence), answer.out);
     CHECK(answer.says("anaconda.yaml:"));
     CHECK(call("linearize configs/airframes/anaconda.yaml " + words).code == 1);

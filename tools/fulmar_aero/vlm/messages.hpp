@@ -86,7 +86,10 @@ inline constexpr MessageText control_section_single{
 inline constexpr MessageText controls_misplaced{
     "aero.controls_misplaced", "controls: without a planform file, the controls belong in their surface"};
 inline constexpr MessageText controls_overlap{
-    "aero.controls_overlap", {"index"}, "the control overlaps controls[{index}] of the same surface"};
+    "aero.controls_overlap",
+    {"begin", "end", "index", "other_begin", "other_end", "surface"},
+    "from {begin} to {end} overlaps controls[{index}], which is from {other_begin} to {other_end} of "
+    "'{surface}'. Change from or to of one of the two"};
 inline constexpr MessageText cruise_lift_unreachable{
     "aero.cruise_lift_unreachable",
     {"airspeed", "mass", "lift_coefficient", "hint"},

@@ -123,7 +123,9 @@ class GeometryRules {
         add(where, located(path, aero_messages::control_reversed(metres(c.to_m), metres(c.from_m))));
       for (std::size_t j = 0; j < k; ++j)
         if (c.from_m < s.controls[j].to_m - 1e-9 && s.controls[j].from_m < c.to_m - 1e-9)
-          add(where, located(path, aero_messages::controls_overlap(j)));
+          add(where, located(path, aero_messages::controls_overlap(
+                                       metres(c.from_m), metres(c.to_m), j, metres(s.controls[j].from_m),
+                                       metres(s.controls[j].to_m), s.name.view())));
       const bool pair =
           c.drives == Drives::aileron || c.drives == Drives::elevons || c.drives == Drives::v_tail;
       if (pair && !s.mirror)

@@ -246,7 +246,8 @@ TEST_CASE("an aircraft without level flight is shown as far as it goes") {
   CHECK(answer.says("aero.flight_impossible(aero.flight_condition(steady level flight, 17, 0), "));
   const std::string page = text_of(out);
   check_page(page);
-  CHECK(page.find("<p class=\"fault\">anaconda: aero.flight_impossible(aero.flight_condition(steady level "
+  CHECK(page.find("<p class=\"fault\">" + heavy +
+                  ": aero.flight_impossible(aero.flight_condition(steady level "
                   "flight, 17, 0)") != std::string::npos);
   CHECK(chart_named(read_charts(page), "Elevator in level").all("line s0").empty());
   CHECK(chart_named(read_charts(page), "Elevator in level").all("line s1").size() == 1);

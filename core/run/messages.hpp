@@ -114,10 +114,11 @@ inline constexpr MessageText log_failed{
 inline constexpr MessageText log_incomplete{"run.log_incomplete", {"problem", "reason"}, "{problem}{reason}"};
 inline constexpr MessageText log_phase_missing{
     "run.log_phase_missing", {"reason"}, "the log names no phase to resume from.{reason}"};
-inline constexpr MessageText log_phase_unknown{
-    "run.log_phase_unknown",
-    {"phase", "choices"},
-    "the log ends in the phase '{phase}', which this mission does not have.{choices}"};
+inline constexpr MessageText log_phase_unknown{"run.log_phase_unknown",
+                                               {"phase", "mission", "phases"},
+                                               "the log ends in the phase '{phase}', which the mission "
+                                               "{mission} lacks now; it has {phases}. Resume with "
+                                               "the mission of that flight, or add the phase"};
 inline constexpr MessageText loop_would_wait{"run.loop_would_wait", "the loop would wait for it"};
 inline constexpr MessageText message_size_invalid{
     "run.message_size_invalid",
@@ -192,6 +193,7 @@ inline constexpr MessageText plugin_not_unloaded{
 inline constexpr MessageText plugin_swapped{"run.plugin_swapped",
                                             {"old", "new", "separator", "changes"},
                                             "swapped: {old} -> {new}{separator}{changes}"};
+inline constexpr MessageText plugin_unnamed{"run.plugin_unnamed", "another plugin"};
 inline constexpr MessageText probe_not_finite{
     "run.probe_not_finite", {"probe"}, "probe '{probe}' is not finite"};
 inline constexpr MessageText rate_or_io_differs{"run.rate_or_io_differs", "another rate or another io"};
@@ -220,7 +222,8 @@ inline constexpr MessageText resumed_field_invalid{
 inline constexpr MessageText resumed_fields_differ{
     "run.resumed_fields_differ",
     {"topic", "type"},
-    "the log's {topic} and this mission's {type} have different fields: another version wrote the log"};
+    "{topic} in the log has other fields than {type} now. Resume with the release and the plugins that wrote "
+    "the log, or set the parameter with --set"};
 inline constexpr MessageText resumed_value_invalid{
     "run.resumed_value_invalid",
     {"field", "found", "parameter", "min", "max"},
@@ -261,8 +264,9 @@ inline constexpr MessageText too_many_requests{
 inline constexpr MessageText took_over{"run.took_over", {"component"}, "{component} takes over"};
 inline constexpr MessageText topic_fields_differ{
     "run.topic_fields_differ",
-    {"topic", "component", "output"},
-    "the log's {topic} and {component}.{output} have different fields: another version wrote the log"};
+    {"topic", "component", "output", "type", "plugin"},
+    "{topic} has other fields than {component}.{output}, a {type}: {plugin} recorded it. Record the log "
+    "again, or load that plugin with --with {component}=FILE"};
 inline constexpr MessageText value_not_carried{
     "run.value_not_carried",
     {"parameter", "found", "min", "max"},

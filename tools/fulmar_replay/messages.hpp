@@ -68,9 +68,11 @@ inline constexpr MessageText tick_gap_too_large{
     {"limit"},
     "the log holds more than {limit} MB between two messages about its ticks"};
 inline constexpr MessageText ticks_empty{"replay.ticks_empty", "the log holds no tick"};
-inline constexpr MessageText ticks_lost{"replay.ticks_lost",
-                                        {"begin", "end"},
-                                        "the log has lost its ticks {begin} to {end}: a replay ends there"};
+inline constexpr MessageText ticks_lost{
+    "replay.ticks_lost",
+    {"begin", "end", "time_s"},
+    "the log lacks the ticks {begin} to {end}, after {time_s} s, because it was damaged. A replay requires "
+    "every tick. Replay an undamaged copy, or fly the mission again"};
 inline constexpr MessageText ticks_missing{
     "replay.ticks_missing",
     "the log has no /fulmar/ticks: it is not the log of a flight, or it is older than the replay function"};
@@ -89,6 +91,7 @@ inline constexpr MessageText topic_not_in_order{
 inline constexpr MessageText topic_type_mismatch{
     "replay.topic_type_mismatch",
     {"topic", "type"},
-    "the fields of {topic} in the log differ from those of {type} here: another version wrote the log"};
+    "{topic} in the log has other fields than {type} now. Replay the log with the release and the plugins "
+    "that wrote it"};
 
 }  // namespace fulmar::replay_messages

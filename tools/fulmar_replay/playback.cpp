@@ -17,15 +17,23 @@ namespace {
 // a flight reads less than one such amount ahead, for 40 ticks
 constexpr std::size_t max_ahead_bytes = 64u << 20;
 
+/// The message with the log in front, unless it names the log already.
+Diagnostic in_log(const std::filesystem::path& log, const Error& fault) {
+  const bool named = std::string_view(fault.what()).find(log.string()) != std::string_view::npos;
+  return named ? fault.diagnostic : located(log.string(), fault.diagnostic);
+}
+
 }  // namespace
 
 Playback::Playback(const std::filesystem::path& log, const Survey& survey, const Graph& graph,
-                   std::vector<std::string> changed)
+                   std::vector<std::string> changed) try
     : survey_(survey),
       changed_(std::move(changed)),
       epoch_ns_(graph.epoch_ns),
-      reading_{McapStream(log), std::numeric_limits<std::int64_t>::min(), 0, {}, 0},
-      now_ns_(reading_.now_ns) {
+      reading_{McapStream(log), std::numeric_limits<std::int64_t>::min(), 0, {},
+  0
+}  // namespace fulmar::core
+, now_ns_(reading_.now_ns) {
   if (!survey.ticks.fault.empty()) throw Error(survey.ticks.fault);
   check_order(survey, survey.log.channel(Event::topic));
   if (!survey.event_fault.empty()) throw Error(survey.event_fault);
@@ -37,6 +45,9 @@ Playback::Playback(const std::filesystem::path& log, const Survey& survey, const
   prepare_vehicle(graph);
   prepare_entries(graph);
   prepare_resume(graph);
+}
+catch (const Error& fault) {
+  throw Error(in_log(log, fault));
 }
 
 Playback::~Playback() = default;
@@ -165,7 +176,7 @@ std::shared_ptr<SampleTrack> Playback::driver(const Graph& graph, const Componen
     const bool there = has_topic(survey_.log, topic);
     topics.push_back(there ? topic : "");
   }
-  track = std::make_shared<SampleTrack>(survey_.log, component.info(), topics,
+  track = std::make_shared<SampleTrack>(survey_.log, component.name, component.info(), topics,
                                         probes ? "/" + component.name + "/probes" : "", epoch_ns_);
   for (const auto& [channel, output] : track->outputs()) {
     route(channel, [to = track](const McapFile::Message& m) { to->take(m); });

@@ -70,7 +70,9 @@ struct Survey::Reading {
     const Ticks now = ticks->read(m.data);
     if (now.first != to.ticks.count || now.periods != now.hashes)
       throw Error(to.ticks.count == 0 ? replay_messages::first_tick_missing(now.first)
-                                      : replay_messages::ticks_lost(to.ticks.count, now.first));
+                                      : replay_messages::ticks_lost(
+                                            to.ticks.count, std::max(now.first, to.ticks.count + 1) - 1,
+                                            Fixed{1e-9 * static_cast<double>(to.ticks.last_ns), 3}));
     each_tick(now, [&](std::uint32_t, std::int64_t time_ns) {
       if (to.ticks.count == 0) to.ticks.first_ns = time_ns;
       in_order = in_order && (to.ticks.count == 0 || time_ns > to.ticks.last_ns);

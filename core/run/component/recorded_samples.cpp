@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/run/messages.hpp"
+#include "core/types/named.hpp"
 #include "core/types/wire.hpp"
 
 namespace fulmar::core {
@@ -15,18 +16,30 @@ namespace {
 
 constexpr std::size_t max_waiting_bytes = 32u << 20;  // of a driver whose samples are not collected
 
+/// Plugin that published the samples of a component, "nmea_gnss.so 1.2.0".
+std::string writer_of(const McapFile& log, const std::string& component) {
+  std::string file, version;
+  if (const McapFile::Metadata* const plugins = find_named(log.metadata, "plugins"))
+    for (const auto& [key, value] : plugins->pairs) {
+      if (key == component + ".file") file = std::filesystem::path(value).filename().string();
+      if (key == component + ".version") version = value;
+    }
+  return file.empty() ? run_messages::plugin_unnamed().line() : file + " " + version;
+}
+
 }  // namespace
 
-SampleTrack::SampleTrack(const McapFile& log, const ComponentInfo& info,
+SampleTrack::SampleTrack(const McapFile& log, const std::string& component, const ComponentInfo& info,
                          const std::vector<std::string>& topics, const std::string& probes,
                          std::int64_t epoch_ns)
-    : name_(info.name), epoch_ns_(epoch_ns) {
+    : name_(component), epoch_ns_(epoch_ns) {
   for (const Port& port : info.outputs) types_.push_back(port.type);
   for (std::size_t i = 0; i < topics.size(); ++i) {
     if (topics[i].empty()) continue;
     const std::uint16_t channel = log.channel(topics[i]);
     if (log.schemas.at(log.channels.at(channel).schema).text != ros_definition(*types_[i]))
-      throw Error(run_messages::topic_fields_differ(topics[i], name_, info.outputs[i].name));
+      throw Error(run_messages::topic_fields_differ(topics[i], name_, info.outputs[i].name, types_[i]->name,
+                                                    writer_of(log, name_)));
     outputs_[channel] = static_cast<std::uint32_t>(i);
   }
   if (!probes.empty()) outputs_[log.channel(probes)] = all_probes;
@@ -101,9 +114,9 @@ bool SampleTrack::next(std::int64_t now_ns, SampleSource::Sample& sample) noexce
 
 // ---- a log with a single reader
 
-RecordedSamples::RecordedSamples(const std::filesystem::path& log, const ComponentInfo& info,
-                                 const std::vector<std::string>& topics, const std::string& probes,
-                                 std::int64_t epoch_ns)
+RecordedSamples::RecordedSamples(const std::filesystem::path& log, const std::string& component,
+                                 const ComponentInfo& info, const std::vector<std::string>& topics,
+                                 const std::string& probes, std::int64_t epoch_ns)
     : epoch_ns_(epoch_ns) {
   McapStream whole(log);  // a topic may begin anywhere
   std::set<std::uint16_t> late;
@@ -112,7 +125,11 @@ RecordedSamples::RecordedSamples(const std::filesystem::path& log, const Compone
     if (m->log_ns < latest_ns) late.insert(m->channel);
     latest_ns = std::max(latest_ns, m->log_ns);
   }
-  track_ = std::make_shared<SampleTrack>(whole.log(), info, topics, probes, epoch_ns);
+  try {
+    track_ = std::make_shared<SampleTrack>(whole.log(), component, info, topics, probes, epoch_ns);
+  } catch (const Error& fault) {
+    throw Error(located(log.string(), fault.diagnostic));
+  }
   for (const auto& [channel, output] : track_->outputs())
     if (late.contains(channel))
       throw Error(run_messages::samples_unordered(log.string(), whole.log().channels.at(channel).topic));

@@ -21,10 +21,11 @@ namespace fulmar::core {
 /// Samples that were read from a log and wait for their tick.
 class SampleTrack {
  public:
-  /// `topics`: one per output, "" for a probe and for an output that was never published. `probes`: the topic
-  /// of all probes, "" for none. Throws Error when the log has none of them, or with other fields.
-  SampleTrack(const McapFile& log, const ComponentInfo& info, const std::vector<std::string>& topics,
-              const std::string& probes, std::int64_t epoch_ns);
+  /// `component`: its name in the mission. `topics`: one per output, "" for a probe and for an output that
+  /// was never published. `probes`: the topic of all probes, "" for none. Throws Error when the log has none
+  /// of them, or with other fields.
+  SampleTrack(const McapFile& log, const std::string& component, const ComponentInfo& info,
+              const std::vector<std::string>& topics, const std::string& probes, std::int64_t epoch_ns);
 
   /// Channel -> output, or `all_probes`.
   const std::map<std::uint16_t, std::uint32_t>& outputs() const { return outputs_; }
@@ -61,7 +62,7 @@ class SampleTrack {
 class RecordedSamples final : public SampleSource {
  public:
   /// Reads the log itself. Throws Error as SampleTrack does, and when samples are not in the order of time.
-  RecordedSamples(const std::filesystem::path& log, const ComponentInfo& info,
+  RecordedSamples(const std::filesystem::path& log, const std::string& component, const ComponentInfo& info,
                   const std::vector<std::string>& topics, const std::string& probes, std::int64_t epoch_ns);
   /// Uses a track that another object fills, and the texts with which a guard stopped the driver, in the
   /// order of time.

@@ -49,7 +49,7 @@ std::unique_ptr<SampleSource> Wiring::recorded_samples(const Component& c) const
     topics.push_back(probe ? "" : "/" + slashed(topic_name(state_.graph, c, i)));
     if (probe) probes = "/" + c.name + "/probes";
   }
-  return std::make_unique<RecordedSamples>(state_.options.drivers_from, c.info(), topics, probes,
+  return std::make_unique<RecordedSamples>(state_.options.drivers_from, c.name, c.info(), topics, probes,
                                            state_.graph.epoch_ns);
 }
 

@@ -142,8 +142,7 @@ Resume read_resume(const Graph& graph, const fs::path& log) try {
   if (end.phase.empty()) throw Error(run_messages::log_phase_missing(early_end(end)));
   resume.phase = end.phase;
   if (!find_named(graph.phases, resume.phase))
-    throw Error(
-        run_messages::log_phase_unknown(resume.phase, choices_text(resume.phase, names_of(graph.phases))));
+    throw Error(run_messages::log_phase_unknown(resume.phase, graph.mission, join(names_of(graph.phases))));
   resume.armed = armed_at_end(graph, end);
   for (const ResumeRule& rule : graph.resume) try {
       resume.params.push_back(read_rule(graph, end, rule));

@@ -5,8 +5,10 @@
 
 #include "core/log/test/read_mcap.hpp"
 #include "core/run/component/async.hpp"
+#include "core/run/component/recorded_samples.hpp"
 #include "core/run/test/commands.hpp"
 #include "core/run/test/lab.hpp"
+#include "core/types/named.hpp"
 
 namespace modes_test {
 
@@ -156,6 +158,20 @@ TEST_CASE("samples of a driver enter at the next tick, are recorded completely, 
   CHECK(messages("again.mcap", "/gauge/reading") == driven);
   CHECK(messages("driven.mcap", "/gauge/probes").size() > 20);
   CHECK(messages("again.mcap", "/gauge/probes") == messages("driven.mcap", "/gauge/probes"));
+
+  ComponentInfo other = find_named(g.components, "gauge")->info();
+  std::vector<std::string> topics;
+  for (Port& port : other.outputs) {
+    topics.push_back(port.type ? "/gauge/" + port.name : "");
+    if (!port.type) continue;
+    Type shorter = *port.type;
+    shorter.fields.pop_back();
+    port.type = std::make_shared<const Type>(shorter);
+  }
+  const std::string start =
+      o.log_file.string() + ": run.topic_fields_differ(/gauge/reading, gauge, reading, ";
+  CHECK_THROWS_WITH_AS(RecordedSamples(o.log_file, "gauge", other, topics, "", g.epoch_ns),
+                       doctest::Contains(start.c_str()), Error);
 }
 
 TEST_CASE("a driver that fails is stopped, and reported") {

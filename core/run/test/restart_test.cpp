@@ -61,7 +61,7 @@ TEST_CASE("a log that does not fit is rejected with a sentence; a missing field 
   CHECK(fault(renamed) == ": run.mission_differs(craft, crafty)");
   Graph phases = g;
   phases.phases[1].name = "third";
-  CHECK(fault(phases) == ": run.log_phase_unknown(second,  [] first, third)");
+  CHECK(fault(phases) == ": run.log_phase_unknown(second, craft, first, third)");
   const Graph more = craft("record: {ports: [craft.remark]}\n" + two_phases);
   const Resume r = read_resume(more, cut_log(more, 3));
   CHECK(r.phase == "second");

@@ -160,6 +160,12 @@ TEST_CASE("a log that was cut off is flown again as far as it is whole, as is wh
     CHECK(r.messages > 1000);
     CHECK(r.differing_messages == 0);
   }
+  const fs::path damaged = fresh("damaged.mcap"), holed = fresh("holed.mcap");
+  std::ofstream(damaged, std::ios::binary)
+      << std::string(bytes).replace(bytes.size() / 2, 200, std::string(200, '?'));
+  recover_mcap(damaged, holed);
+  const std::string gap = holed.string() + ": replay.ticks_lost(";
+  CHECK_THROWS_WITH_AS(replay_of(holed), doctest::Contains(gap.c_str()), Error);
 }
 
 TEST_CASE("whatever a vehicle never publishes, its flight is flown again from its log, to the same file") {

@@ -36,6 +36,14 @@ std::optional<std::string> request_id(const json& message) {
   return id->get<std::string>();
 }
 
+/// For a parameter without its component: the names that end with it, else all.
+std::string names_with_component(const std::string& parameter, const std::vector<std::string>& known) {
+  std::vector<std::string> same;
+  for (const std::string& name : known)
+    if (name.ends_with("." + parameter)) same.push_back(name);
+  return choices_text(parameter, same.empty() ? known : same);
+}
+
 }  // namespace
 
 const std::map<std::string, Hub::Op, std::less<>>& Hub::ops() {
@@ -186,7 +194,8 @@ void Hub::set_one(Client& asker, const std::shared_ptr<Pending>& pending, const 
     if (reported_enough(asker)) throw Error("");
     const auto value = parameter.find("value");
     const std::size_t dot = name.find('.');
-    if (dot == std::string::npos) throw Error(live_messages::parameter_name_invalid());
+    if (dot == std::string::npos)
+      throw Error(live_messages::parameter_name_invalid(names_with_component(name, parameter_names(view()))));
     if (value == parameter.end() || value->is_null()) throw Error(live_messages::parameter_not_removable());
     const std::string text = mission_text(*value, parameters_.texts.contains(name));
     control_.set_parameter(name.substr(0, dot), name.substr(dot + 1), text,

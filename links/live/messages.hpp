@@ -40,8 +40,10 @@ inline constexpr MessageText op_form_invalid{
     "live.op_form_invalid", {"reason"}, "the message does not have the form that its op requires: {reason}"};
 inline constexpr MessageText op_unknown{
     "live.op_unknown", {"op", "choices"}, "there is no op '{op}'.{choices}"};
-inline constexpr MessageText parameter_name_invalid{"live.parameter_name_invalid",
-                                                    "a parameter is named COMPONENT.PARAMETER"};
+inline constexpr MessageText parameter_name_invalid{
+    "live.parameter_name_invalid",
+    {"choices"},
+    "the name lacks its component; write COMPONENT.PARAMETER.{choices}"};
 inline constexpr MessageText parameter_not_record{
     "live.parameter_not_record", {"component", "parameter"}, "{component}.{parameter} is not a record"};
 inline constexpr MessageText parameter_not_removable{"live.parameter_not_removable",

@@ -26,7 +26,8 @@ class CdrReader {
   const std::byte* take(std::size_t size, std::uint32_t count = 1) {
     if (count > 0) at_ = ((at_ - cdr_header_bytes + size - 1) & ~(size - 1)) + cdr_header_bytes;
     const std::size_t bytes = size * count;
-    if (at_ > data_.size() || bytes > data_.size() - at_) throw Error(types_messages::message_truncated());
+    if (at_ > data_.size() || bytes > data_.size() - at_)
+      throw Error(types_messages::message_truncated(data_.size(), at_ + bytes));
     at_ += bytes;
     return data_.data() + (at_ - bytes);
   }
@@ -71,7 +72,7 @@ class CdrReader {
   }
   /// Throws Error unless only padding is left: up to 3 bytes in own messages, up to 7 in foreign ones.
   void finish(std::size_t padding = 7) const {
-    if (data_.size() - at_ > padding) throw Error(types_messages::message_too_long());
+    if (data_.size() - at_ > padding) throw Error(types_messages::message_too_long(data_.size(), at_));
   }
 
  private:

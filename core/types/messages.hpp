@@ -39,11 +39,17 @@ inline constexpr MessageText label_value_invalid{
 inline constexpr MessageText list_shape{"types.list_shape", {"limit"}, "a list of at most {limit}"};
 inline constexpr MessageText list_truncated{"types.list_truncated",
                                             "a list has a larger count than its bytes hold"};
-inline constexpr MessageText message_too_long{"types.message_too_long",
-                                              "a message is longer than its definition"};
+inline constexpr MessageText message_too_long{
+    "types.message_too_long",
+    {"found", "expected"},
+    "a message has {found} bytes, and its definition ends at {expected}. The program that wrote it uses "
+    "another definition; correct one of the two"};
 inline constexpr MessageText message_too_short{"types.message_too_short", "it is too short"};
-inline constexpr MessageText message_truncated{"types.message_truncated",
-                                               "a message is too short for its definition"};
+inline constexpr MessageText message_truncated{
+    "types.message_truncated",
+    {"found", "required"},
+    "a message has {found} bytes, and its definition requires at least {required}. The program that wrote it "
+    "uses another definition; correct one of the two"};
 inline constexpr MessageText name_unknown{
     "types.name_unknown", {"kind", "name", "choices"}, "there is no {kind} '{name}'.{choices}"};
 inline constexpr MessageText name_unknown_in{"types.name_unknown_in",

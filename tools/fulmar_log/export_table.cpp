@@ -75,7 +75,7 @@ Tables::Tables(const std::filesystem::path& log, const std::vector<std::string>&
   for (const auto& [channel, source] : sources_) {
     if (source.why.empty()) continue;
     const std::string sentence = stream.log().channels.at(channel).topic + ": " + source.why;
-    if (!topics_.empty()) throw Error(sentence);
+    if (!topics_.empty()) throw Error(located(log.string(), sentence));
     left_out_.push_back(sentence);
   }
 }

@@ -9,7 +9,10 @@ inline constexpr MessageText field_incomplete{"reading.field_incomplete",
                                               "a field requires a type and a name"};
 inline constexpr MessageText field_name_too_long{"reading.field_name_too_long", "the name is too long"};
 inline constexpr MessageText field_type_unknown{
-    "reading.field_type_unknown", {"type"}, "the type {type} is unknown"};
+    "reading.field_type_unknown",
+    {"type", "choices"},
+    "the message definition has no type {type}. Correct it in the program that records the "
+    "message.{choices}"};
 inline constexpr MessageText file_empty{"reading.file_empty", "it is empty"};
 inline constexpr MessageText file_is_directory{"reading.file_is_directory", "it is a directory"};
 inline constexpr MessageText file_missing{"reading.file_missing", "the file does not exist"};

@@ -35,6 +35,16 @@ std::optional<fulmar_kind> ros_kind(std::string_view word) {
   return std::nullopt;
 }
 
+std::vector<std::string> ros_kinds() {
+  std::vector<std::string> names{"byte", "char"};
+  for (const KindRow& row : kind_rows)
+    if (row.kind != FULMAR_STRUCT && ros_kind(row.ros) &&
+        std::find(names.begin(), names.end(), row.ros) == names.end())
+      names.emplace_back(row.ros);
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 template <class T>
 bool read_number(std::string_view text, T& value) {
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -130,7 +140,7 @@ class Parser {
     std::string_view element = type_word;
     if (!shape(element, field)) fail(name, line, reading_messages::list_length_invalid());
     if (!kind(element, name, note, depth, field))
-      fail(name, line, reading_messages::field_type_unknown(element));
+      fail(name, line, reading_messages::field_type_unknown(element, choices_text(element, ros_kinds())));
     if (primitive_size(field.kind) > 0 && !is_real(field.kind)) take_constants(constants, field);
     constants.clear();
     if (laid_out_) place(field, name, made, end);

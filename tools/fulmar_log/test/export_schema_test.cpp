@@ -98,9 +98,11 @@ TEST_CASE("a definition of others: header, constants, small integers, defaults, 
 }
 
 TEST_CASE("what is no definition is refused, naming the field; what holds itself, too") {
-  CHECK_THROWS_WITH_AS(parse_ros2msg("a/msg/B", "wstring name\n"),
-                       "a/msg/B: reading.line_fault(wstring name, reading.field_type_unknown(wstring))",
-                       Error);
+  CHECK_THROWS_WITH_AS(
+      parse_ros2msg("a/msg/B", "wstring name\n"),
+      doctest::Contains(
+          "a/msg/B: reading.line_fault(wstring name, reading.field_type_unknown(wstring,  [string] "),
+      Error);
   CHECK_THROWS_WITH_AS(parse_ros2msg("a/msg/B", "B b\n"),
                        doctest::Contains("reading.type_nesting_invalid(a/msg/B)"), Error);
   CHECK_THROWS_AS(parse_ros2msg("a/msg/B", "int32[0] b\n"), Error);
@@ -112,9 +114,9 @@ TEST_CASE("a message that is shorter, longer or of another encapsulation than it
   RosField root = parse_ros2msg("a/msg/B", "uint32 x\n");
   CHECK_NOTHROW(measure(root, bytes({0, 1, 0, 0, 9, 0, 0, 0})));
   CHECK_THROWS_WITH_AS(measure(root, bytes({0, 1, 0, 0, 9, 0, 0})),
-                       doctest::Contains("types.message_truncated"), Error);
+                       doctest::Contains("types.message_truncated(7, 8)"), Error);
   CHECK_THROWS_WITH_AS(measure(root, bytes({0, 1, 0, 0, 9, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8})),
-                       doctest::Contains("types.message_too_long"), Error);
+                       doctest::Contains("types.message_too_long(16, 8)"), Error);
   CHECK_THROWS_WITH_AS(measure(root, bytes({0, 0, 0, 0, 9, 0, 0, 0})),
                        doctest::Contains("types.encapsulation_invalid(0)"), Error);
   RosField list = parse_ros2msg("a/msg/B", "float64[] x\n");

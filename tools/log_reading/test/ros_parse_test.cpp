@@ -152,7 +152,8 @@ TEST_CASE("a definition that cannot be read is refused with the line that is wro
     return refusal([&] { parse_ros_definition("a/msg/B", text); });
   };
   CHECK(refused("complex64 x\n") ==
-        "a/msg/B: reading.line_fault(complex64 x, reading.field_type_unknown(complex64))");
+        "a/msg/B: reading.line_fault(complex64 x, reading.field_type_unknown(complex64,  [] bool, byte, "
+        "char, float32, float64, int16, int32, int64, int8, string, uint16, uint32, uint64, uint8))");
   CHECK(refused("float64\n") == "a/msg/B: reading.line_fault(float64, reading.field_incomplete)");
   CHECK(refused("float64[x] y\n") ==
         "a/msg/B: reading.line_fault(float64[x] y, reading.list_length_invalid)");

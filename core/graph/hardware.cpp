@@ -45,8 +45,14 @@ void check_hardware(const MissionText& text, const Overrides& overrides, Report&
     return std::any_of(list.begin(), list.end(), [&](const auto& o) { return fills(o.first); });
   };
   if (hardware.with.empty() || given(overrides.roles) || given(overrides.with)) return;
+  if (!text.role(hardware.with))
+    return report.add(hardware.where,
+                      graph_messages::hardware_plugin_missing(hardware.with, hardware.because));
+  std::vector<std::string> names;
+  for (const ComponentText& c : text.components)
+    if (c.fills_role(hardware.with) && c.only.value_or(Io::fcu) == Io::fcu) names.push_back(c.name);
   report.add(hardware.where,
-             graph_messages::hardware_component_missing(hardware.with, hardware.with, hardware.because));
+             graph_messages::hardware_component_missing(hardware.with, hardware.because, join(names)));
 }
 
 namespace {

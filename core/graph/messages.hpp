@@ -210,11 +210,16 @@ inline constexpr MessageText hang_misplaced{
     "graph.hang_misplaced", {"place"}, "{place}.hang: the key is valid only with 'run: process'"};
 inline constexpr MessageText hardware_component_missing{
     "graph.hardware_component_missing",
-    {"role", "with_role", "reason"},
-    "hardware: with io: fcu this mission requires --role {role}=COMPONENT or --with {with_role}=FILE: "
-    "{reason}"};
+    {"role", "reason", "components"},
+    "hardware: with io: fcu the role {role} requires a choice: {reason}. Add --role {role}=COMPONENT "
+    "({components}), or --with {role}=FILE for a plugin of your own"};
 inline constexpr MessageText hardware_not_allowed{
     "graph.hardware_not_allowed", {"reason"}, "hardware: this mission is for simulation only: {reason}"};
+inline constexpr MessageText hardware_plugin_missing{
+    "graph.hardware_plugin_missing",
+    {"component", "reason"},
+    "hardware: with io: fcu the component {component} requires a choice: {reason}. Add --with "
+    "{component}=FILE"};
 inline constexpr MessageText hardware_reason_missing{
     "graph.hardware_reason_missing",
     "hardware: 'because' is missing; write why the mission is not fit for hardware as it is"};

@@ -63,7 +63,9 @@ TEST_CASE("a mission may need a role or a component that the command line choose
   const std::string with = "{with: outer, because: \"no law of it has flown\"}";
   CHECK(keyed(with, on("sim")) == "");
   CHECK(keyed(with, on("fcu")) ==
-        "hourglass.yaml:6: graph.hardware_component_missing(outer, outer, no law of it has flown)");
+        "hourglass.yaml:6: graph.hardware_component_missing(outer, no law of it has flown, slc, tecs, mine)");
+  CHECK(keyed("{with: tecs, because: \"it has not flown\"}", on("fcu")) ==
+        "hourglass.yaml:6: graph.hardware_plugin_missing(tecs, it has not flown)");
   Overrides chosen = on("fcu");
   chosen.roles = {{"outer", "tecs"}};
   CHECK(keyed(with, chosen) == "");

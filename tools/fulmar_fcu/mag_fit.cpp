@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 #include <sstream>
 
 #include "core/error.hpp"
+#include "core/graph/yaml.hpp"
 #include "tools/fulmar_fcu/messages.hpp"
 #include "tools/fulmar_fcu/words.hpp"
 
@@ -63,8 +63,7 @@ std::string objection(const EllipsoidFit& fit, double micro) {
 }
 
 std::vector<Vector3> read_samples(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw core::Error(fcu_messages::samples_not_readable(path));
+  std::istringstream file(core::read_source(path, path)->text);
   std::vector<Vector3> out;
   std::string line;
   for (int n = 1; std::getline(file, line); ++n) {

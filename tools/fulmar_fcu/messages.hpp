@@ -345,8 +345,6 @@ inline constexpr MessageText round_trip_missing{"fcu.round_trip_missing",
                                                 "controller is too slow for flight, or it is cut"};
 inline constexpr MessageText sample_line_invalid{
     "fcu.sample_line_invalid", {"file", "line"}, "{file}:{line}: expected three numbers in tesla: x, y, z."};
-inline constexpr MessageText samples_not_readable{
-    "fcu.samples_not_readable", {"file"}, "{file} cannot be read."};
 inline constexpr MessageText sampling_timeout{"fcu.sampling_timeout",
                                               "The magnetometer gave no new sample for two minutes. The "
                                               "calibration has stopped, and the parameters are unchanged."};

@@ -9,6 +9,7 @@
 
 #include "core/app/program.hpp"
 #include "core/error.hpp"
+#include "core/graph/yaml.hpp"
 #include "core/loader/home.hpp"
 #include "core/types/text.hpp"
 #include "tools/fulmar_log/terminal.hpp"
@@ -68,10 +69,8 @@ std::string usual_out(const std::vector<std::string>& logs) {
 
 /// The step times in the output of `fulmar run --json`.
 nlohmann::json step_times(const std::string& file) {
-  std::ifstream in;
-  if (file != "-") in.open(file);
-  const nlohmann::json result =
-      nlohmann::json::parse(whole_text(file == "-" ? std::cin : in), nullptr, false);
+  const std::string text = file == "-" ? whole_text(std::cin) : core::read_source(file, file)->text;
+  const nlohmann::json result = nlohmann::json::parse(text, nullptr, false);
   if (!result.is_object() || !result.contains("step_time_us"))
     throw core::Error(fulmar::report_messages::result_expected(file));
   return result["step_time_us"];

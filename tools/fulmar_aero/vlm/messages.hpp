@@ -158,7 +158,6 @@ inline constexpr MessageText planform_missing{
     "aero.planform_missing",
     {"planform"},
     "planform: the file '{planform}' does not exist beside the geometry file"};
-inline constexpr MessageText planform_not_readable{"aero.planform_not_readable", "the file cannot be read"};
 inline constexpr MessageText planform_numbers_missing{
     "aero.planform_numbers_missing",
     {"found", "count", "names"},

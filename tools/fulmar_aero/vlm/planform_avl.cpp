@@ -3,10 +3,10 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include "core/error.hpp"
+#include "core/graph/yaml.hpp"
 #include "core/types/text.hpp"
 #include "tools/fulmar_aero/vlm/messages.hpp"
 #include "tools/fulmar_aero/vlm/planform.hpp"
@@ -25,8 +25,7 @@ class AvlFile {
  public:
   AvlFile(const std::string& path, const std::string& name, Geometry& g)
       : path_(path), name_(name), geometry_(g) {
-    std::ifstream in(path);
-    if (!in) throw core::Error(located(name, aero_messages::planform_not_readable()));
+    std::istringstream in(core::read_source(path, name)->text);
     std::string text;
     for (int number = 1; std::getline(in, text); ++number) {
       const std::string line(core::trimmed(text.substr(0, text.find_first_of("#!"))));
@@ -284,8 +283,12 @@ Text<32> add_airfoil(Geometry& geometry, const Airfoil& airfoil, const std::stri
 }
 
 void read_camber(const std::string& path, const std::string& name, Airfoil& airfoil) {
-  std::ifstream in(path);
-  if (!in) throw core::Error(located(name, aero_messages::airfoil_not_readable()));
+  std::istringstream in;
+  try {
+    in.str(core::read_source(path, name)->text);
+  } catch (const core::Error&) {
+    throw core::Error(located(name, aero_messages::airfoil_not_readable()));
+  }
   std::vector<std::array<double, 2>> points;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {

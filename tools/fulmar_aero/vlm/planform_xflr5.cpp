@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include "core/error.hpp"
+#include "core/graph/yaml.hpp"
 #include "core/types/text.hpp"
 #include "tools/fulmar_aero/vlm/messages.hpp"
 #include "tools/fulmar_aero/vlm/planform.hpp"
@@ -204,11 +203,7 @@ class Xflr5Plane {
 }  // namespace
 
 void add_xflr5(const std::string& path, const std::string& name, Geometry& geometry) {
-  std::ifstream in(path);
-  if (!in) throw core::Error(located(name, aero_messages::planform_not_readable()));
-  std::ostringstream text;
-  text << in.rdbuf();
-  const std::string all = text.str();
+  const std::string all = core::read_source(path, name)->text;
   Element document;
   XmlReader(all, name).fill(document);
   Xflr5Plane(name, geometry).read(document);

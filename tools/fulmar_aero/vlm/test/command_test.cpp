@@ -229,6 +229,14 @@ TEST_CASE("surfaces of an AVL file: the same flow as drawn") {
     CHECK_THROWS_WITH(add_avl((folder.path / "bad.avl").string(), "wing.avl", *other),
                       doctest::Contains(bad.sentence));
   }
+  std::filesystem::create_directory(folder.path / "none.dat");
+  auto other = std::make_unique<Geometry>();
+  CHECK_THROWS_WITH(add_avl((folder.path / "bad.avl").string(), "wing.avl", *other),
+                    "none.dat: aero.airfoil_not_readable");
+  CHECK_THROWS_WITH(add_avl((folder.path / "none.dat").string(), "wing.avl", *other),
+                    "graph.file_is_folder(wing.avl)");
+  CHECK_THROWS_WITH(add_xflr5((folder.path / "none.dat").string(), "plane.xml", *other),
+                    "graph.file_is_folder(plane.xml)");
 }
 
 TEST_CASE("surfaces, masses and units of an XFLR5 file") {

@@ -13,7 +13,7 @@ inline constexpr MessageText altitude_out_of_range{
     "origin_altitude is {found} m and must be from -1000 to 20000"};
 inline constexpr MessageText error_unknown{"simulation.error_unknown", "an unknown error"};
 inline constexpr MessageText heading_not_finite{
-    "simulation.heading_not_finite", {"found"}, "heading is {found}"};
+    "simulation.heading_not_finite", {"found"}, "the given heading is {found}; give a finite angle in rad"};
 inline constexpr MessageText height_invalid{
     "simulation.height_invalid", {"found"}, "height is {found} m and must be more than 0"};
 inline constexpr MessageText level_flight_missing{

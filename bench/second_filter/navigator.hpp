@@ -8,7 +8,6 @@
 #include <tuple>
 #include <utility>
 
-#include "bench/second_filter/heading.hpp"
 #include "bench/second_filter/measurements.hpp"
 #include "bench/second_filter/monitor.hpp"
 #include "bench/second_filter/params.hpp"
@@ -16,6 +15,7 @@
 #include "fulmar/flight/earth/geodesy.hpp"
 #include "fulmar/flight/earth/magnetic_model.hpp"
 #include "fulmar/flight/navigation/alignment.hpp"
+#include "fulmar/flight/navigation/heading.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/msg/vehicle_status.hpp"
 
@@ -24,6 +24,7 @@ namespace fulmar::second_filter {
 using navigation::attitude_at_rest;
 using navigation::FieldDrift;
 using navigation::FlightAlignment;
+using navigation::HeadingTest;
 using navigation::Stillness;
 
 /// State of the attitude:

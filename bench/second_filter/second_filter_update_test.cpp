@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Updates of the second formulation against the textbook; heading by accelerations and levels of noise
-// against simulated sequences.
+// Updates of the second formulation against the textbook; levels of noise against simulated sequences.
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <numbers>
-#include <vector>
 
 #include "bench/second_filter/filter.hpp"
-#include "bench/second_filter/heading.hpp"
 #include "bench/second_filter/monitor.hpp"
 #include "fulmar/random.hpp"
 
@@ -40,29 +36,6 @@ Filter mixed(Random& r) {
   return f;
 }
 
-/// Error of the heading and its standard deviation after a minute at 50 Hz. The aircraft turns with
-/// `accel_mps2`, to the left and to the right; fixes at 5 Hz arrive 0.15 s late.
-HeadingTest heading(double error_rad, double accel_mps2, std::uint64_t seed, double begin_s = 0) {
-  Random r(seed);
-  HeadingTest test;
-  const Eigen::Rotation2Dd to_estimate(-error_rad);
-  const auto accel = [&](double t) {  // N, E of the truth
-    const double a = accel_mps2 * std::sin(0.5 * t), course = 0.3 * t;
-    return Vector2d(-a * std::sin(course), a * std::cos(course));
-  };
-  std::vector<Vector2d> v_n{Vector2d(20, 0)};
-  for (int k = 1; k <= 3000; ++k) {
-    const double t = 0.02 * k;
-    v_n.push_back(v_n.back() + 0.01 * (accel(t) + accel(t - 0.02)));
-    const Vector2d f_n = to_estimate * accel(t - 0.01) + 0.2 * Vector2d(r.normal(), r.normal());
-    test.felt({f_n.x(), f_n.y(), -9.8}, 0.02, begin_s + t);
-    if (k % 10 || k < 20) continue;
-    const Vector2d late = 0.5 * (v_n[v_n.size() - 8] + v_n[v_n.size() - 9]);  // 7.5 samples
-    test.fix(late + 0.1 * Vector2d(r.normal(), r.normal()), 0.1, begin_s + t - 0.15);
-  }
-  return test;
-}
-
 /// A scalar filter of a white error of variance 1 and a slow error of variance 1 and 5 s, whose levels are
 /// learnt, beside errors that are larger: mean of each level over the last two thirds of half an hour.
 struct Levels {
@@ -91,8 +64,6 @@ Levels learn(double white_std, double slow_std, bool outliers = false) {
   }
   return mean;
 }
-
-double off_rad(double a, double b) { return std::abs(std::remainder(a - b, 2 * std::numbers::pi)); }
 
 }  // namespace
 
@@ -164,39 +135,6 @@ TEST_CASE("update: a measurement beyond the gate is rejected, or by force counts
   z.innovation = std::nan("");
   CHECK_FALSE(forced.fuse(z, 0.4, 5, Vector::Ones(), true).accepted);
   CHECK(forced.state().x.allFinite());
-}
-
-TEST_CASE("heading: an error of any size is found with fixes that are late") {
-  for (const double degrees : {-135.0, -20.0, 0.0, 60.0, 90.0, 180.0})
-    for (const double begin_s : {0.0, 5e4}) {
-      CAPTURE(degrees);
-      CAPTURE(begin_s);
-      const double error_rad = degrees * std::numbers::pi / 180;
-      double ratios = 0;
-      for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-        const HeadingTest test = heading(error_rad, 4, seed, begin_s);
-        CHECK(off_rad(test.error_rad(), error_rad) < 5 * std::numbers::pi / 180);
-        CHECK(test.std_rad() < 0.08);
-        ratios += std::pow(off_rad(test.error_rad(), error_rad) / test.std_rad(), 2) / 20;
-      }
-      CHECK(ratios < 2);
-      CHECK(ratios > 0.01);
-    }
-}
-
-TEST_CASE("heading: the time may be negative") {
-  CHECK(heading(1, 4, 1, -1000).error_rad() == doctest::Approx(1).epsilon(0.05));
-}
-
-TEST_CASE("heading: straight flight shows nothing, and nothing is left after clear") {
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    CHECK(heading(1, 0, seed).std_rad() > 0.5);
-    CHECK(heading(1, 0.05, seed).std_rad() > 0.5);
-  }
-  CHECK(HeadingTest{}.std_rad() > 100);
-  HeadingTest test = heading(1, 4, 1);
-  test.clear();
-  CHECK(test.std_rad() > 100);
 }
 
 TEST_CASE(

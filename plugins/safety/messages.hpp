@@ -87,6 +87,10 @@ inline constexpr MessageText lands_after_return{
 inline constexpr MessageText levels{"safety.levels", "levels the wings"};
 inline constexpr MessageText lift_off{"safety.lift_off", "lift-off"};
 inline constexpr MessageText link_back{"safety.link_back", "vehicle status back"};
+inline constexpr MessageText magnetometer_turned{
+    "safety.magnetometer_turned",
+    {"angle"},
+    "magnetometer mounted {angle} deg off: heading set by GNSS, angle corrected. Pilot: check mount"};
 inline constexpr MessageText motor_back{"safety.motor_back", "the motor gives thrust"};
 inline constexpr MessageText near_ceiling{"safety.near_ceiling", {"distance"}, "{distance} m to the ceiling"};
 inline constexpr MessageText near_fence{"safety.near_fence", {"distance"}, "{distance} m to the fence"};

@@ -3,6 +3,7 @@
 // and action for the pilot.
 #pragma once
 #include <array>
+#include <cmath>
 
 #include "fulmar/fitted.hpp"
 #include "fulmar/msg/ground_state.hpp"
@@ -17,8 +18,8 @@ namespace fulmar::safety {
 
 struct SensorWatch {
   static constexpr const char* doc =
-      "Reports of sensors that are silent, stuck, rejected, noisy or biased in flight, of a lost position, "
-      "and of their return.";
+      "Reports of sensors that are silent, stuck, rejected, noisy or biased in flight, of a magnetometer "
+      "mounted wrong, of a lost position, and of their return.";
   struct Inputs {
     In<VehicleState> state;
     Optional<NavigationHealth> health;  // without it only the position is monitored
@@ -43,13 +44,19 @@ struct SensorWatch {
     const bool flies =
         in.ground ? in.ground->contact == Contact::air : s.velocity_valid && s.ground_speed_mps > p.flying;
     for (std::size_t i = 0; i < sensors.size() && in.health && !in.health.stale(); ++i) {
-      // One receiver gives both: its silence is reported with the position alone.
-      const bool covered = sensors[i].health == &NavigationHealth::gnss_velocity &&
-                           in.health->gnss_position.state == SensorState::silent;
+      // One receiver gives both: its silence is reported with the position alone. A magnetometer that is
+      // mounted wrong is reported with its angle.
+      const bool covered = (sensors[i].health == &NavigationHealth::gnss_velocity &&
+                            in.health->gnss_position.state == SensorState::silent) ||
+                           (sensors[i].health == &NavigationHealth::mag && in.health->mag_turn_rad != 0 &&
+                            in.health->mag.state == SensorState::biased);
       watch(sensors[i], (*in.health).*sensors[i].health, reported_[i], flies && !covered, p, now_s, dt, tick,
             out);
     }
-    if (in.health && !in.health.stale()) inertial(*in.health, flies, p, now_s, dt, tick, out);
+    if (in.health && !in.health.stale()) {
+      mount(*in.health, p, now_s, dt, tick, out);
+      inertial(*in.health, flies, p, now_s, dt, tick, out);
+    }
     had_position_ = had_position_ || s.position_valid;
     const Reported::News news = position_.step(flies && had_position_ && !s.position_valid, s.position_valid,
                                                0, p.clear, p.pause, now_s, dt);
@@ -120,6 +127,23 @@ struct SensorWatch {
     }
   }
 
+  /// Found in the run already: at once, so that the pilot can stop there.
+  void mount(const NavigationHealth& h, const Params& p, double now_s, double dt, const Tick& tick,
+             Outputs& out) {
+    constexpr double degree = 57.29577951308232;
+    const bool turned = h.mag_turn_rad != 0;
+    const Reported::News news = mount_.step(turned, !turned, 0, p.clear, p.pause, now_s, dt);
+    Text<96> text;
+    if (news == Reported::News::raised) {
+      text = fitted<96>(safety_messages::magnetometer_turned, Fixed{degree * std::abs(h.mag_turn_rad), 0});
+      say(Severity::warning, Cause::magnetometer, text, tick, out);
+    } else if (news == Reported::News::cleared) {
+      text =
+          fitted<96>(safety_messages::sensor_back, "magnetometer", Fixed{mount_.since_s(now_s) - p.clear, 0});
+      say(Severity::info, Cause::magnetometer, text, tick, out);
+    }
+  }
+
   /// Receiver, magnetometer, barometer and pitot are independent, but all are compared with the inertial
   /// unit. Two of them rejected at once indicate a fault of the inertial unit.
   void inertial(const NavigationHealth& h, bool flies, const Params& p, double now_s, double dt,
@@ -144,7 +168,7 @@ struct SensorWatch {
   }
 
   std::array<std::array<Reported, 2>, sensors.size()> reported_;
-  Reported position_, inertial_;
+  Reported position_, inertial_, mount_;
   bool had_position_ = false;
 };
 

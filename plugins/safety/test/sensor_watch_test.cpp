@@ -164,6 +164,32 @@ TEST_CASE("noise and bias are reported when they last") {
   }
 }
 
+TEST_CASE(
+    "a magnetometer mounted wrong is one line with its angle, in the run already, and one when it is right") {
+  for (const double turn_rad : {-3.1, 1.05}) {
+    Watching w;
+    w.ground.contact = Contact::ground;
+    w.health.mag.state = SensorState::biased;
+    w.health.mag_turn_rad = turn_rad;
+    w.fly(0.1);
+    REQUIRE(w.reported.size() == 1);
+    CHECK(w.reported[0].severity == Severity::warning);
+    CHECK(w.reported[0].cause == Cause::magnetometer);
+    CHECK(w.reported[0].text.view() ==
+          (turn_rad < 0 ? "safety.magnetometer_turned(178)" : "safety.magnetometer_turned(60)"));
+    w.ground.contact = Contact::air;
+    w.fly(20);
+    CHECK(w.reported.size() == 1);
+    w.health.mag.state = SensorState::silent;  // as any other
+    w.fly(1);
+    CHECK(w.reported.size() == 2);
+    w.health.mag.state = SensorState::ok;
+    w.health.mag_turn_rad = 0;
+    w.fly(4);
+    CHECK(w.count(Severity::info) == 2);
+  }
+}
+
 TEST_CASE("a receiver that is silent is one line, not one for each thing that it measures") {
   Watching w;
   w.fly(5);

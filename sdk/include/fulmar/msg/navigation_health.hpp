@@ -34,6 +34,12 @@ struct NavigationHealth {
                                                            ///< of the velocity; the innovation is the
                                                            ///< largest of them
   SensorHealth mag, baro, pitot;                           ///< magnetometer, barometer and pitot
+  double mag_turn_rad = 0;                                 ///< turn about the body z axis by which samples of
+                                                           ///< a magnetometer that is mounted wrong are
+                                                           ///< corrected; 0: as mounted
 };
+
+template <>
+inline constexpr std::string_view appended_from<NavigationHealth> = "mag_turn_rad";
 
 }  // namespace fulmar

@@ -31,6 +31,7 @@ struct Flown {
   std::optional<double> first_s{};                 ///< time of the first state
   VehicleState last{};
   Truth last_truth{};
+  NavigationHealth health{};
   double gnss_delay_s = 0;  ///< estimated delay
 
   Errors run() {
@@ -50,6 +51,7 @@ struct Flown {
       if (alter) alter(x, s);
       feed(bench, x, s);
       const Status result = bench.step(1 / plan.rate_hz);
+      if (bench.out.health.written) health = bench.out.health.value;
       if (!bench.out.state.written) continue;
       last = bench.out.state.value;
       gnss_delay_s = bench.out.gnss_delay_s.value;

@@ -211,6 +211,7 @@ struct Health {
   BaroStep baro_step;
   TubeSteps tube;
   Strength field;
+  double mag_turn_rad = 0;    ///< NavigationHealth::mag_turn_rad
   std::uint32_t refused = 0;  ///< by all gates but that of the sideslip, which no sensor measures
 
   /// A sample came, whether it is used or not.
@@ -255,8 +256,8 @@ struct Health {
       if (flying && triad.was_clipped()) h.state = std::max(h.state, SensorState::stuck);
       return h;
     };
-    return {felt(gyro, rates), felt(accel, forces), of(horizontal), of(height),
-            of(velocity),      of(heading),         of(baro),       of(pitot)};
+    return {felt(gyro, rates), felt(accel, forces), of(horizontal), of(height), of(velocity), of(heading),
+            of(baro),          of(pitot),           mag_turn_rad};
   }
 };
 

@@ -13,6 +13,7 @@
 #include "fulmar/flight/navigation/alignment.hpp"
 #include "fulmar/flight/navigation/ekf_models.hpp"
 #include "fulmar/flight/navigation/gusts.hpp"
+#include "fulmar/flight/navigation/heading.hpp"
 #include "fulmar/flight/navigation/noise.hpp"
 #include "fulmar/flight/navigation/params.hpp"
 #include "fulmar/msg/baro.hpp"
@@ -206,7 +207,9 @@ class Navigator {  ///< from samples of sensors to the state of the filter; SI u
       return true;
     }
     const Vector3d v = filter_.state().v_n;
+    heading_.corrected(filter_.R_nb());
     filter_.predict(omega_b, f_b, dt);
+    heading_.predicted(filter_.R_nb(), filter_.specific_force_b(), dt, time_s_);
     const Vector3d ahead = ekf::air_velocity(filter_.state()).normalized();
     late_mps_ = (late_mps_ + (filter_.state().v_n - v).dot(ahead)) * std::exp(-dt / late_s);
     if (dt > coasted_s) bridged(dt, p);
@@ -326,6 +329,7 @@ class Navigator {  ///< from samples of sensors to the state of the filter; SI u
     std(ekf::delay) = p.gnss_delay_std;
     time_s_ = time_s;
     filter_.reset(x, std, time_s);
+    heading_.clear();
     forget_gusts(time_s, p);
     mode_ = Mode::running;
     aligned_s_ = time_s;
@@ -339,6 +343,7 @@ class Navigator {  ///< from samples of sensors to the state of the filter; SI u
     resting_ = false;
     rest_since_s_ = never;
     flight_.clear();
+    heading_.clear();
   }
   /// The first attitude in flight was none: from the beginning.
   void try_again() {
@@ -349,6 +354,7 @@ class Navigator {  ///< from samples of sensors to the state of the filter; SI u
   }
   /// Between two samples far apart the rates were not on a straight line.
   void bridged(double dt, const Params& p) {
+    heading_.clear();
     filter_.inflate(ekf::theta, 3, 0.3 * p.gap_rate_std * dt * dt);
     filter_.inflate(ekf::vel, 3, 0.3 * p.gap_accel_std * dt * dt);
   }
@@ -400,20 +406,7 @@ class Navigator {  ///< from samples of sensors to the state of the filter; SI u
     if (has_mag) mag(mag_b_, p);
   }
 
-  void align_in_flight(const Gnss& g, double time_s, const Params& p) {
-    const Vector3d v_n = eigen(g.velocity_mps);
-    const bool has_mag = seen_.field && time_s_ - mag_s_ < 0.5;
-    const Vector3d wind_n(filter_.state().wind.x(), filter_.state().wind.y(), 0);
-    const auto found =
-        flight_.fix(v_n, {p.gravity, has_mag ? &field_n_ : nullptr, regaining() ? &wind_n : nullptr,
-                          std::clamp(time_s_ - time_s, 0.0, 1.0)});
-    if (!found || v_n.head<2>().norm() < p.min_airspeed) return;
-    if (regaining()) {
-      regain(g, *found, has_mag, time_s, p);
-      return;
-    }
-    begin_in_flight(g, *found, time_s, p);
-  }
+  void align_in_flight(const Gnss& g, double time_s, const Params& p);
 
   void rest(const Params&) {
     rest_fused_s_ = time_s_;
@@ -456,11 +449,17 @@ class Navigator {  ///< from samples of sensors to the state of the filter; SI u
   bool tube_contradicts(double Va, const Params& p);
   void yaw_from_course(const Vector3d& v_n);
   void yaw_from_field(const Vector3d& field_b);
+  bool test_heading(const Gnss& g, double valid_s, const Params& p);
+  void turn_heading(const Gnss& g, double valid_s, const Params& p);
+  double take_deviation();
+  void find_mount(const Vector3d& sample_b, const Params& p);
 
   ErrorStateEkf filter_;
   LocalFrame frame_;
   Stillness still_;
   FlightAlignment flight_;
+  HeadingTest heading_;
+  Mount mount_;
   Health health_;
   Vector3d field_n_{2e-5, 0, 4e-5}, mag_b_ = Vector3d::Zero();
   Vector3d origin_sum_ = Vector3d::Zero();

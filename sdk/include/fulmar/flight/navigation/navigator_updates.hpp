@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Updates of the navigator (navigator.hpp): GNSS, magnetometer, and the noise of the inertial unit;
-// navigator_air.hpp has barometer and pitot.
+// Updates of the navigator (navigator.hpp): GNSS, and the noise of the inertial unit. navigator_air.hpp has
+// barometer and pitot, navigator_heading.hpp the magnetometer.
 #pragma once
 #include <utility>
 
 #include "fulmar/flight/navigation/navigator.hpp"
 #include "fulmar/flight/navigation/navigator_air.hpp"
+#include "fulmar/flight/navigation/navigator_heading.hpp"
 
 namespace fulmar::navigation {
 
@@ -29,6 +30,7 @@ inline void Navigator::doubt(std::initializer_list<int> parts, double std, Aid& 
 inline void Navigator::learn_noise(const Vector3d& omega_b, const Vector3d& f_b, double dt, const Params& p) {
   if (health_.rates.was_clipped() || health_.forces.was_clipped()) clipped_s_ = time_s_;
   const bool reported = at_stop();
+  if (reported) heading_.clear();
   if (!reported) {
     gyro_noise_.sampled(omega_b, dt);
     accel_noise_.sampled(f_b, dt);
@@ -70,6 +72,7 @@ inline void Navigator::gnss(const Gnss& g, double valid_s, const Params& p) {
   if (!at_fix(valid_s, p).known) return;
   if (!seen_.yaw) yaw_from_course(eigen(g.velocity_mps));
   if (!stuck(health_.velocity)) {
+    if (test_heading(g, valid_s, p)) return;
     gnss_velocity(g, valid_s, p);
     if (mode_ == Mode::trying) try_attitude(p);
     if (!aligned()) return;
@@ -117,20 +120,6 @@ inline void Navigator::count_reset(const ekf::Nominal& before) {
   resets_.velocity_mps += now.v_n - before.v_n;
   resets_.yaw_rad = wrap_pi(resets_.yaw_rad +
                             angle_difference(euler_from(now.q_nb).yaw_rad, euler_from(before.q_nb).yaw_rad));
-}
-
-/// Without a magnetometer the take-off run shows the yaw.
-inline void Navigator::yaw_from_course(const Vector3d& v_n) {
-  if (v_n.head<2>().norm() < 5) return;
-  const ekf::Nominal before = filter_.state();
-  Euler e = euler_from(filter_.R_nb());
-  e.yaw_rad = std::atan2(v_n.y(), v_n.x());
-  filter_.set_attitude(quaternion_from(e));
-  filter_.forget(ekf::theta + 2, 1, 0.35);
-  filter_.place(filter_.state().p_n, v_n);
-  filter_.forget(ekf::vel, 3, 1);
-  seen_.yaw = true;
-  count_reset(before);
 }
 
 inline void Navigator::gnss_velocity(const Gnss& g, double valid_s, const Params& p) {
@@ -208,6 +197,21 @@ inline void Navigator::forget_level() {
   filter_.forget(ekf::gnss, 2, std);
   const ErrorStateEkf::Past now = filter_.at(time_s_);
   for (int i = 0; i < 2; ++i) filter_.fuse(ekf::position(filter_, now, i, now.p_n(i)), std * std, 1e9);
+}
+
+inline void Navigator::align_in_flight(const Gnss& g, double time_s, const Params& p) {
+  const Vector3d v_n = eigen(g.velocity_mps);
+  const bool has_mag = seen_.field && time_s_ - mag_s_ < 0.5;
+  const Vector3d wind_n(filter_.state().wind.x(), filter_.state().wind.y(), 0);
+  const auto found =
+      flight_.fix(v_n, {p.gravity, has_mag ? &field_n_ : nullptr, regaining() ? &wind_n : nullptr,
+                        std::clamp(time_s_ - time_s, 0.0, 1.0)});
+  if (!found || v_n.head<2>().norm() < p.min_airspeed) return;
+  if (regaining()) {
+    regain(g, *found, has_mag, time_s, p);
+    return;
+  }
+  begin_in_flight(g, *found, time_s, p);
 }
 
 /// The first attitude in flight: that of the fix, then integrated to the present by the inertial samples. Its
@@ -389,39 +393,6 @@ inline double Navigator::height_variance(const ekf::Scalar& z, double std, const
   const double known = filter_.expected_std(z, 0);
   return std::max(samples_in(p.gnss_height_time, health_.height.accepted_s) * std * std / (1 + doubt),
                   known * known * (std::abs(z.innovation) / height_step_m - 1));
-}
-
-inline void Navigator::mag(const Vector3d& field_b, const Params& p) {
-  const double strength = field_b.norm();
-  if (!(strength > 1e-6) || !field_b.allFinite()) return;
-  mag_s_ = time_s_;
-  mag_b_ = field_b;
-  health_.field.sampled(strength, time_s_);
-  health_.heading.contradicts = airborne_ && health_.field.changed();
-  if (!aligned()) {
-    flight_.mag(field_b);
-    return;
-  }
-  const double horizontal = field_n_.head<2>().norm() / field_n_.norm();
-  if (!seen_.field || horizontal < 0.15) return;  // near the magnetic poles there is no heading
-  if (time_s_ - mag_fused_s_ < 0.1 - 1e-4)
-    return;  // its errors are correlated: more samples would not be more information
-  mag_fused_s_ = time_s_;
-  if (stuck(health_.heading)) return;
-  if (!seen_.yaw) yaw_from_field(field_b);
-  const double std = p.mag_noise / horizontal;
-  fuse(ekf::magnetic_heading(filter_.state(), field_b, declination()), std * std, p.mag_gate,
-       health_.heading);
-}
-
-/// A magnetometer that wakes up after the alignment.
-inline void Navigator::yaw_from_field(const Vector3d& field_b) {
-  const ekf::Nominal before = filter_.state();
-  const double turn = ekf::magnetic_heading(before, field_b, declination()).innovation;
-  filter_.set_attitude(exp_map({0, 0, turn}) * filter_.state().q_nb);
-  filter_.forget(ekf::theta + 2, 1, 1);
-  seen_.yaw = true;
-  count_reset(before);
 }
 
 }  // namespace fulmar::navigation

@@ -3,11 +3,13 @@
 // estimator's report, errors meanwhile, and time of recovery. Prints docs/sensor_faults.md and exits 1 when a
 // bound of a fault is exceeded.
 // bench_sensor_faults [--json] [--seeds N] [--with PLUGIN.so] [NAME]
+// bench_sensor_faults --compass [--seeds N] [--first SEED] [--with PLUGIN.so]: a magnetometer mounted wrong,
+// by its angle
 #include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "bench/sensor_faults/flight.hpp"
+#include "bench/sensor_faults/compass.hpp"
 
 using namespace fulmar::sensor_faults;
 
@@ -161,8 +163,8 @@ void print_reasons(const std::string& only) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  unsigned seeds = 10, misses = 0;
-  bool json = false;
+  unsigned seeds = 10, first = 1, misses = 0;
+  bool json = false, compass = false;
   std::string only, with;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
@@ -170,12 +172,18 @@ int main(int argc, char** argv) {
       seeds = static_cast<unsigned>(std::atoi(argv[++i]));
     else if (word == "--with" && i + 1 < argc)
       with = argv[++i];
+    else if (word == "--first" && i + 1 < argc && std::atoi(argv[i + 1]) > 0)
+      first = static_cast<unsigned>(std::atoi(argv[++i]));
+    else if (word == "--compass")
+      compass = true;
     else if (word == "--json")
       json = true;
     else if (word[0] != '-' && only.empty())
       only = word;
     else {
-      std::fprintf(stderr, "usage: bench_sensor_faults [--json] [--seeds N] [--with PLUGIN.so] [NAME]\n");
+      std::fprintf(stderr,
+                   "usage: bench_sensor_faults [--json | --compass [--first SEED]] [--seeds N] [--with "
+                   "PLUGIN.so] [NAME]\n");
       return 2;
     }
   }
@@ -183,6 +191,11 @@ int main(int argc, char** argv) {
   try {
     if (!only.empty()) row(only);
     fs::create_directories(folder);
+    if (compass) {
+      misses = fly_compasses(first, seeds, folder, with);
+      fs::remove_all(folder);
+      return misses == 0 ? 0 : 1;
+    }
     std::vector<Each> usual;
     for (unsigned seed = 1; seed <= seeds; ++seed)
       usual.push_back(fly(row("nothing"), seed, {}, folder, "", with).most);

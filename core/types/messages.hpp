@@ -42,14 +42,14 @@ inline constexpr MessageText list_truncated{"types.list_truncated",
 inline constexpr MessageText message_too_long{
     "types.message_too_long",
     {"found", "expected"},
-    "a message has {found} bytes, and its definition ends at {expected}. The program that wrote it uses "
-    "another definition; correct one of the two"};
+    "a message has {found} bytes, and its definition ends at {expected}. Correct the definition or "
+    "the message in the program that writes it"};
 inline constexpr MessageText message_too_short{"types.message_too_short", "it is too short"};
 inline constexpr MessageText message_truncated{
     "types.message_truncated",
     {"found", "required"},
-    "a message has {found} bytes, and its definition requires at least {required}. The program that wrote it "
-    "uses another definition; correct one of the two"};
+    "a message has {found} bytes, and its definition requires at least {required}. Correct the definition or "
+    "the message in the program that writes it"};
 inline constexpr MessageText name_unknown{
     "types.name_unknown", {"kind", "name", "choices"}, "there is no {kind} '{name}'.{choices}"};
 inline constexpr MessageText name_unknown_in{"types.name_unknown_in",

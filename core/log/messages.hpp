@@ -52,7 +52,8 @@ inline constexpr MessageText log_format_invalid{
     "log.log_format_invalid", {"file"}, "'{file}' is not an MCAP file"};
 inline constexpr MessageText log_moved{
     "log.log_moved", {"file", "destination"}, "the file was moved from '{file}{destination}"};
-inline constexpr MessageText log_not_readable{"log.log_not_readable", {"file"}, "cannot read '{file}'"};
+inline constexpr MessageText log_not_readable{
+    "log.log_not_readable", {"file", "reason"}, "cannot read '{file}': {reason}. Name the file of a log"};
 inline constexpr MessageText log_not_writable{
     "log.log_not_writable", {"file", "reason"}, "cannot write '{file}': {reason}"};
 inline constexpr MessageText log_removed{

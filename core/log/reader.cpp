@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <new>
 #include <set>
@@ -73,9 +75,14 @@ struct McapStream::Impl {
   bool ended = false;
 
   Impl(const std::filesystem::path& path, McapSalvage* s) : salvage(s) {
-    std::error_code ignored;
-    if (std::filesystem::is_regular_file(path, ignored)) in.open(path, std::ios::binary | std::ios::ate);
-    if (!in.is_open() || !in) throw Error(log_messages::log_not_readable(path.string()));
+    std::error_code fault;
+    const std::filesystem::file_status status = std::filesystem::status(path, fault);
+    errno = 0;
+    if (std::filesystem::is_regular_file(status)) in.open(path, std::ios::binary | std::ios::ate);
+    if (!in.is_open() || !in) {
+      const int no_file = std::filesystem::is_directory(status) ? EISDIR : fault ? fault.value() : ESPIPE;
+      throw Error(log_messages::log_not_readable(path.string(), std::strerror(errno != 0 ? errno : no_file)));
+    }
     size = static_cast<std::uint64_t>(in.tellg());
     in.seekg(0);
     std::string magic(mcap::magic.size(), '\0');

@@ -151,7 +151,8 @@ Resume read_resume(const Graph& graph, const fs::path& log) try {
     }
   return resume;
 } catch (const Error& fault) {
-  throw Error(located(log.string(), fault.diagnostic));
+  const bool named = std::string_view(fault.what()).find(log.string()) != std::string_view::npos;
+  throw Error(named ? fault.diagnostic : located(log.string(), fault.diagnostic));
 }
 
 namespace {

@@ -195,7 +195,8 @@ TEST_CASE("what is no log of a flight is refused in a sentence") {
   std::ofstream(text) << "not a log";
   CHECK(refused(text).find("log.log_format_invalid(") != std::string::npos);
   const fs::path nowhere = folder().path / "nowhere.mcap";
-  CHECK(refused(nowhere) == "log.log_not_readable(" + nowhere.string() + ")");
+  CHECK(refused(nowhere) == "log.log_not_readable(" + nowhere.string() + ", No such file or directory)");
+  CHECK(refused(folder().path) == "log.log_not_readable(" + folder().path.string() + ", Is a directory)");
   const fs::path log = fresh("short.mcap"), cut = fresh("stump.mcap");
   Flight flight(mission(one_phase), logged(log, 0.1));
   flight.run();

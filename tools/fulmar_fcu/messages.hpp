@@ -430,7 +430,7 @@ inline constexpr MessageText value_not_taken{
 inline constexpr MessageText value_out_of_range{"fcu.value_out_of_range",
                                                 {"parameter", "minimum", "maximum", "found"},
                                                 "{parameter} is {minimum} to {maximum}, not {found}: the "
-                                                "controller would accept the value, but not work with it."};
+                                                "controller does not work with other values."};
 inline constexpr MessageText values_not_restored{
     "fcu.values_not_restored", {"fault"}, "{fault} The former values could not be restored."};
 inline constexpr MessageText values_restored{"fcu.values_restored", " The former values are restored."};

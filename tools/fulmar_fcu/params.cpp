@@ -77,11 +77,11 @@ std::uint32_t parse_integer(const Param& param, const std::string& text) {
   const auto [end, code] = std::from_chars(begin, text.data() + text.size(), value);
   if (code == std::errc::invalid_argument || end != text.data() + text.size())
     throw Error(fcu_messages::whole_number_expected(param.name, text));
-  if (code != std::errc{} || value < INT32_MIN || value > INT32_MAX)
-    throw Error(fcu_messages::whole_number_too_large(text, param.name));
+  const bool too_large = code != std::errc{} || value < INT32_MIN || value > INT32_MAX;
   for (const ParamRange& range : param_ranges)
-    if (range.name == param.name && (value < range.least || value > range.most))
+    if (range.name == param.name && (too_large || value < range.least || value > range.most))
       throw Error(fcu_messages::value_out_of_range(param.name, range.least, range.most, text));
+  if (too_large) throw Error(fcu_messages::whole_number_too_large(text, param.name));
   return std::bit_cast<std::uint32_t>(static_cast<std::int32_t>(value));
 }
 

@@ -100,8 +100,10 @@ TEST_CASE("what a type does not hold is refused with a sentence") {
   says(whole, "1.5", "fcu.whole_number_expected(RC_ARM_CHN, 1.5)");
   says(whole, "", "fcu.whole_number_expected(RC_ARM_CHN, )");
   says(whole, "4x", "fcu.whole_number_expected(RC_ARM_CHN, 4x)");
-  says(whole, "2147483648", "fcu.whole_number_too_large(2147483648, RC_ARM_CHN)");
-  says(whole, "99999999999999999999", "fcu.whole_number_too_large(99999999999999999999, RC_ARM_CHN)");
+  says(whole, "2147483648", "fcu.value_out_of_range(RC_ARM_CHN, -1, 15, 2147483648)");
+  const Param baud{"BAUD_RATE", 4, true, 0, 0};
+  says(baud, "2147483648", "fcu.whole_number_too_large(2147483648, BAUD_RATE)");
+  says(baud, "99999999999999999999", "fcu.whole_number_too_large(99999999999999999999, BAUD_RATE)");
   const Param channels{"RC_NUM_CHN", 3, true, 0, 0};
   says(channels, "99", "fcu.value_out_of_range(RC_NUM_CHN, 4, 16, 99)");
   says(channels, "3", "fcu.value_out_of_range(RC_NUM_CHN, 4, 16, 3)");

@@ -36,7 +36,7 @@ inline constexpr MessageText footer_offset_invalid{"log.footer_offset_invalid",
 inline constexpr MessageText host_fields_differ{
     "log.host_fields_differ",
     {"topic", "type"},
-    "the log's {topic} and this version's {type} have different fields: another version wrote the log"};
+    "{topic} in the log has other fields than {type} now. Use the release of Fulmar that wrote the log"};
 inline constexpr MessageText index_outside_chunk{
     "log.index_outside_chunk",
     "a message index points outside its chunk; the file is damaged here, and fulmar log recover repairs it"};

@@ -69,7 +69,7 @@ void check_numbers(const ParamInfo& param, const std::string& what) {
   if (!(param.min <= param.max)) throw Error(loader_messages::range_empty(what));
   for (int i = 0; i < count; ++i)
     if (!std::isfinite(param.initial[i]) || param.initial[i] < param.min || param.initial[i] > param.max)
-      throw Error(loader_messages::default_out_of_range(what));
+      throw Error(loader_messages::default_out_of_range(what, param.initial[i], param.min, param.max));
 }
 
 void read_kind(TableReader& tables, const fulmar_param& from, ParamInfo& param, const std::string& what) {

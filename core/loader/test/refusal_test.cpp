@@ -123,7 +123,7 @@ TEST_CASE("tables that contradict themselves are rejected by name") {
   CHECK(refusal(plugin("same_names")) == "same_names.so: loader.field_repeated(type 'Point', x_m)");
   CHECK(refusal(plugin("bad_name")) == "bad_name.so: type 'Point': loader.field_name_invalid(y m)");
   CHECK(refusal(plugin("bad_default")) ==
-        "bad_default.so: loader.default_out_of_range(parameter 'gain' of component 'Point')");
+        "bad_default.so: loader.default_out_of_range(parameter 'gain' of component 'Point', 3, 0, 2)");
   CHECK(refusal(plugin("bad_stride")) ==
         "bad_stride.so: loader.table_stride_invalid(the outputs of component 'Point', 8, 32)");
   CHECK(refusal(plugin("wild_text")) ==

@@ -58,8 +58,8 @@ void OutFile::refuse(const std::filesystem::path& file) {
     throw Error(log_messages::log_exists(file.string()));
   if (std::filesystem::exists(std::filesystem::symlink_status(part, none)))
     throw Error(log_messages::partial_log_exists(
-        part, grows(part) ? "another run is writing it"
-                          : "a run was interrupted; move it away first, or fulmar log recover it"));
+        part, grows(part) ? "another run is writing it; wait for its end, or give another name"
+                          : "a run was interrupted; move it away, or run fulmar log recover on it"));
 }
 
 OutFile::~OutFile() {

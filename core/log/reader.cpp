@@ -116,11 +116,18 @@ struct McapStream::Impl {
     } catch (const std::bad_alloc&) {
       stop(log_messages::record_memory_exhausted());
     } catch (const Error& e) {
-      stop(e.what());
+      stop(e.what() + (salvage || !is_damage(e.diagnostic.code) ? "" : log_messages::repair_hint().line()));
     }
     messages += pending.starts.size();
     if (ended) file.complete = !damaged;
     return !pending.starts.empty();
+  }
+
+  /// False for a log that another copy or a repair does not make readable.
+  static bool is_damage(std::string_view code) {
+    return code != log_messages::compression_unknown.code() &&
+           code != log_messages::content_not_readable.code() &&
+           code != log_messages::schemas_too_large.code();
   }
 
   void stop(const std::string& why) {

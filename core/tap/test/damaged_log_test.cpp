@@ -161,7 +161,9 @@ TEST_CASE("a file that is being written is detected as such until its writer end
     fly(log, 1000);
     CHECK(OutFile::grows(part));
     CHECK_THROWS_WITH_AS(write_log(folder.path / "a.mcap", 1),
-                         ("log.partial_log_exists(" + part.string() + ", another run is writing it)").c_str(),
+                         ("log.partial_log_exists(" + part.string() +
+                          ", another run is writing it; wait for its end, or give another name)")
+                             .c_str(),
                          Error);
     log.close();
     CHECK_FALSE(OutFile::grows(folder.path / "a.mcap"));

@@ -17,7 +17,7 @@ namespace fulmar::core {
 class CdrReader {
  public:
   explicit CdrReader(std::span<const std::byte> message) : data_(message) {
-    if (message.size() < cdr_header_bytes) throw Error(types_messages::message_too_short());
+    if (message.size() < cdr_header_bytes) throw Error(types_messages::message_too_short(message.size()));
     const auto form = static_cast<unsigned>(message[0]) << 8 | static_cast<unsigned>(message[1]);
     if (form != 1) throw Error(types_messages::encapsulation_invalid(form));
   }

@@ -17,7 +17,7 @@ inline constexpr MessageText field_not_struct{
 inline constexpr MessageText field_not_terminated{
     "types.field_not_terminated", {"field"}, "{field} does not end in NUL"};
 inline constexpr MessageText field_too_long{
-    "types.field_too_long", {"field", "limit"}, "{field} is longer than {limit}"};
+    "types.field_too_long", {"field", "limit"}, "{field} is longer than {limit} bytes"};
 inline constexpr MessageText flag_value_invalid{
     "types.flag_value_invalid", {"field", "value"}, "{field} is {value}, which is neither false nor true"};
 inline constexpr MessageText frames_differ{
@@ -37,14 +37,18 @@ inline constexpr MessageText index_out_of_range{
 inline constexpr MessageText label_value_invalid{
     "types.label_value_invalid", {"field", "value"}, "{field} is {value}, which has no label"};
 inline constexpr MessageText list_shape{"types.list_shape", {"limit"}, "a list of at most {limit}"};
-inline constexpr MessageText list_truncated{"types.list_truncated",
-                                            "a list has a larger count than its bytes hold"};
+inline constexpr MessageText list_truncated{
+    "types.list_truncated",
+    "a list has a larger count than its bytes hold. Correct the message in the program that writes it"};
 inline constexpr MessageText message_too_long{
     "types.message_too_long",
     {"found", "expected"},
     "a message has {found} bytes, and its definition ends at {expected}. Correct the definition or "
     "the message in the program that writes it"};
-inline constexpr MessageText message_too_short{"types.message_too_short", "it is too short"};
+inline constexpr MessageText message_too_short{
+    "types.message_too_short",
+    {"found"},
+    "it has {found} bytes, but its header alone has 4. Correct the program that writes it"};
 inline constexpr MessageText message_truncated{
     "types.message_truncated",
     {"found", "required"},
@@ -58,7 +62,9 @@ inline constexpr MessageText name_unknown_in{"types.name_unknown_in",
 inline constexpr MessageText reader_differs{"types.reader_differs",
                                             {"subject", "expected", "found"},
                                             "reader has {subject}{expected}, writer {found}"};
-inline constexpr MessageText text_not_terminated{"types.text_not_terminated", "a text does not end in NUL"};
+inline constexpr MessageText text_not_terminated{
+    "types.text_not_terminated",
+    "a text does not end in NUL. Correct the message in the program that writes it"};
 inline constexpr MessageText too_many_items{"types.too_many_items",
                                             {"field", "count", "capacity"},
                                             "{field} has {count} items; its capacity is {capacity}"};

@@ -15,22 +15,26 @@ inline constexpr MessageText child_hung{"isolate.child_hung", {"limit"}, "hung: 
 inline constexpr MessageText child_killed{"isolate.child_killed", {"signal"}, "was killed (signal {signal})"};
 inline constexpr MessageText child_program_missing{
     "isolate.child_program_missing",
-    "the program fulmar-child is missing: no component can run in a separate process."};
+    "the program fulmar-child is missing, so no component can run in a separate process. Install Fulmar "
+    "again, or build it: cmake --build build --target flight"};
 inline constexpr MessageText child_stopped{
     "isolate.child_stopped", {"file", "reason", "stage"}, "{file} {reason} while being {stage}"};
-inline constexpr MessageText child_version_differs{"isolate.child_version_differs",
-                                                   "fulmar-child and the host have different versions"};
-inline constexpr MessageText component_moved{
-    "isolate.component_moved",
-    {"file", "component", "index"},
-    "{file} no longer has the component '{component}' at index {index}: its copy has changed"};
+inline constexpr MessageText child_version_differs{
+    "isolate.child_version_differs",
+    "fulmar-child and the host have different versions; build or install both together"};
+inline constexpr MessageText component_moved{"isolate.component_moved",
+                                             {"file", "component", "index"},
+                                             "{file} no longer has the component '{component}' at index "
+                                             "{index}: its copy has changed. Start the flight again"};
 inline constexpr MessageText component_name_too_long{"isolate.component_name_too_long",
                                                      "the component's name is longer than 255 bytes."};
-inline constexpr MessageText constructor_failed{"isolate.constructor_failed", "the constructor failed"};
+inline constexpr MessageText constructor_failed{"isolate.constructor_failed",
+                                                "the constructor failed and gives no reason"};
 inline constexpr MessageText fork_refused{
     "isolate.fork_refused", {"function", "reason"}, "calls {function} in flight; {reason}"};
-inline constexpr MessageText host_abi_differs{"isolate.host_abi_differs",
-                                              "the host of the script has another ABI"};
+inline constexpr MessageText host_abi_differs{
+    "isolate.host_abi_differs",
+    "the host of the script has another ABI; build it with the SDK of this Fulmar"};
 inline constexpr MessageText illegal_instruction{"isolate.illegal_instruction",
                                                  "crashed (illegal instruction)"};
 inline constexpr MessageText memory_not_shared{
@@ -40,10 +44,10 @@ inline constexpr MessageText parameters_not_readable{
     "isolate.parameters_not_readable", {"reason"}, "the parameters cannot be read: {reason}"};
 inline constexpr MessageText segmentation_fault{"isolate.segmentation_fault", "crashed (segmentation fault)"};
 inline constexpr MessageText stack_overflowed{"isolate.stack_overflowed", "crashed (stack overflow)"};
-inline constexpr MessageText tables_differ{
-    "isolate.tables_differ",
-    {"component"},
-    "the ports or parameters of '{component}' differ from those that the host read"};
+inline constexpr MessageText tables_differ{"isolate.tables_differ",
+                                           {"component"},
+                                           "the ports or parameters of '{component}' differ from those that "
+                                           "the host read. Make them the same in every load of the plugin"};
 inline constexpr MessageText text_too_long{"isolate.text_too_long",
                                            "a text parameter is longer than its capacity"};
 inline constexpr MessageText vehicle_not_isolated{

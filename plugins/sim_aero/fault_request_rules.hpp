@@ -4,6 +4,8 @@
 #pragma once
 #include <cstdio>
 
+#include "figures.hpp"
+
 namespace fulmar::sim {
 
 /// The range of a fault's size: that of its parameter.
@@ -63,12 +65,13 @@ inline std::string Faults::refusal(const FaultRequest& r) {
   if (r.size_ratio != 0 && !range.any())
     return located("size", sim_aero_messages::fault_without_size(name(r.kind)));
   if (r.size_ratio != 0 && !range.holds(r.size_ratio))
-    return located("size", sim_aero_messages::fault_size_out_of_range(limits));
+    return located("size", sim_aero_messages::fault_size_out_of_range(figures(r.size_ratio, 6), limits));
   if (r.what == FaultTarget::icing && r.kind != FaultKind::none && r.size_ratio == 0)
     return located("size", sim_aero_messages::icing_rate_missing());
   if (!(r.ramp_s >= 0 && r.ramp_s <= 3600))
-    return located("ramp", sim_aero_messages::fault_ramp_out_of_range());
-  if (!(r.for_s >= 0 && r.for_s <= 1e6)) return located("for", sim_aero_messages::fault_time_out_of_range());
+    return located("ramp", sim_aero_messages::fault_ramp_out_of_range(figures(r.ramp_s, 6)));
+  if (!(r.for_s >= 0 && r.for_s <= 1e6))
+    return located("for", sim_aero_messages::fault_time_out_of_range(figures(r.for_s, 6)));
   return "";
 }
 

@@ -3,22 +3,15 @@
 // file.
 #pragma once
 #include <cmath>
-#include <cstdio>
 #include <string>
 
+#include "figures.hpp"
 #include "fulmar/flight/model/steady_flight.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/sim/plant.hpp"
 #include "messages.hpp"
 
 namespace fulmar::sim {
-
-inline std::string figures(double value, int digits = 3) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*g", digits, value);
-  return text;
-}
-inline std::string degrees(double rad) { return figures(rad * 57.29577951308232) + " deg"; }
 
 /// Reason why the airframe cannot fly: in a map of some fields the others are zero. Empty for a complete one.
 inline std::string missing_part(const Airframe& a) {

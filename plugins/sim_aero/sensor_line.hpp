@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "figures.hpp"
 #include "fulmar/random.hpp"
 #include "messages.hpp"
 #include "sensor_suite.hpp"
@@ -74,9 +75,15 @@ class SensorLine {
         period_s_(1 / std::min(t.rate_hz, tick_hz)),
         random_(seed) {
     if (t.jitter_s > 0.45 / t.rate_hz)
-      throw std::runtime_error(located("sensor_file", sim_aero_messages::jitter_too_large(name)).line());
+      throw std::runtime_error(
+          located("sensor_file",
+                  sim_aero_messages::jitter_too_large(name, figures(t.jitter_s), figures(0.45 / t.rate_hz)))
+              .line());
     if (t.latency_s > (Delay<T>::capacity - 1) * period_s_)
-      throw std::runtime_error(located("sensor_file", sim_aero_messages::latency_too_large(name)).line());
+      throw std::runtime_error(located("sensor_file", sim_aero_messages::latency_too_large(
+                                                          name, figures(t.latency_s),
+                                                          figures((Delay<T>::capacity - 1) * period_s_)))
+                                   .line());
     if (t.dropouts_frac > 0) lose(t);
   }
 

@@ -12,6 +12,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "figures.hpp"
 #include "fulmar/random.hpp"
 #include "messages.hpp"
 
@@ -66,7 +67,10 @@ struct Wander {
   static double deviation(const SheetSpec& sheet) {
     const double wanted = sheet.instability * sheet.instability;
     if (lowest(sheet, 0) > wanted)
-      throw std::runtime_error(located("sensor_file", sim_aero_messages::instability_too_small()).line());
+      throw std::runtime_error(
+          located("sensor_file", sim_aero_messages::instability_too_small(
+                                     figures(sheet.instability), figures(std::sqrt(lowest(sheet, 0)))))
+              .line());
     double low = 0, high = 4 * sheet.instability;
     for (int i = 0; i < 60; ++i) {
       const double middle = 0.5 * (low + high);

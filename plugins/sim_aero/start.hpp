@@ -50,8 +50,11 @@ inline void place(Plant& plant, const Airframe& a, double origin_alt_m, const St
   if (!in_air || !plant.fly({p.start_north, p.start_east, -p.start_height}, p.start_heading, Va))
     throw std::runtime_error(
         trim_words(a, flight, own ? "start_airspeed" : "airframe.limits.airspeed_cruise"));
-  if (plant.height_above_ground() < a.gear.height_m)
-    throw std::runtime_error(located("start_height", sim_aero_messages::start_below_ground()).line());
+  if (const double missing_m = a.gear.height_m - plant.height_above_ground(); missing_m > 0)
+    throw std::runtime_error(
+        located("start_height", sim_aero_messages::start_below_ground(figures(p.start_height, 6),
+                                                                      figures(p.start_height + missing_m, 4)))
+            .line());
   plant.shift(1e-9 * static_cast<double>(now_ns));
 }
 

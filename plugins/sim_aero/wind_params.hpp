@@ -6,6 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "figures.hpp"
 #include "fulmar/eigen.hpp"
 #include "fulmar/plugin.hpp"
 #include "fulmar/sim/weather.hpp"
@@ -43,7 +44,10 @@ inline Eigen::Vector3d steady_wind(const WindParams& p) {
 
 inline Weather weather(const WindParams& p, const AirParams& air) {
   if (p.wind_profile == WindProfile::log && p.wind_reference <= p.wind_roughness)
-    throw std::runtime_error(located("wind_reference", sim_aero_messages::wind_reference_low()).line());
+    throw std::runtime_error(
+        located("wind_reference",
+                sim_aero_messages::wind_reference_low(figures(p.wind_reference), figures(p.wind_roughness)))
+            .line());
   return {steady_wind(p),
           p.turbulence,
           {p.wind_profile, p.wind_reference, p.wind_exponent, p.wind_roughness},

@@ -240,7 +240,7 @@ TEST_CASE("a logarithmic profile whose reference lies in the grass is refused") 
   b->params.wind.wind_reference.value = 0.5;
   b->params.wind.wind_roughness.value = 0.6;
   CHECK(b->configure() == Status::failed);
-  CHECK(b->error().find("wind_reference: sim_aero.wind_reference_low") != std::string::npos);
+  CHECK(b->error().find("wind_reference: sim_aero.wind_reference_low(0.5, 0.6)") != std::string::npos);
 }
 
 TEST_CASE("an aircraft that crashed on the turning Earth lies still and turns with it") {

@@ -62,14 +62,15 @@ TEST_CASE("each kind that a target has is accepted, and no other") {
 TEST_CASE("a size, a ramp or a time out of range is refused with the range") {
   auto b = airborne(SensorSet::perfect);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  CHECK(ask(*b, {baro, wrong, 2e5}) == "size: sim_aero.fault_size_out_of_range(-100000 to 100000 Pa)");
-  CHECK(ask(*b, {baro, wrong, nan}) == "size: sim_aero.fault_size_out_of_range(-100000 to 100000 Pa)");
+  CHECK(ask(*b, {baro, wrong, 2e5}) ==
+        "size: sim_aero.fault_size_out_of_range(200000, -100000 to 100000 Pa)");
+  CHECK(ask(*b, {baro, wrong, nan}) == "size: sim_aero.fault_size_out_of_range(nan, -100000 to 100000 Pa)");
   CHECK(ask(*b, {FaultTarget::engine, FaultKind::weak, 1.5}) ==
-        "size: sim_aero.fault_size_out_of_range(0 to 1)");
+        "size: sim_aero.fault_size_out_of_range(1.5, 0 to 1)");
   CHECK(ask(*b, {baro, FaultKind::stuck, 1}) == "size: sim_aero.fault_without_size(stuck)");
   CHECK(ask(*b, {FaultTarget::icing, FaultKind::growing}) == "size: sim_aero.icing_rate_missing");
-  CHECK(ask(*b, {baro, wrong, 100, -1}) == "ramp: sim_aero.fault_ramp_out_of_range");
-  CHECK(ask(*b, {baro, wrong, 100, 0, nan}) == "for: sim_aero.fault_time_out_of_range");
+  CHECK(ask(*b, {baro, wrong, 100, -1}) == "ramp: sim_aero.fault_ramp_out_of_range(-1)");
+  CHECK(ask(*b, {baro, wrong, 100, 0, nan}) == "for: sim_aero.fault_time_out_of_range(nan)");
   CHECK(std::abs(off(*b)) < 1e-6);  // a rejected request has no effect
 }
 

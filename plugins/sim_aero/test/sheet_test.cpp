@@ -96,7 +96,7 @@ TEST_CASE("a bias instability is the lowest Allan deviation, noise and walk incl
   CHECK(curve.at_1s() / (1e-4 / std::sqrt(2)) == Approx(1).epsilon(0.1));
   CHECK(curve.lowest() / 3e-5 == Approx(1).epsilon(0.1));
   suite.imu.gyro.instability_radps = 1e-6;  // below the noise
-  CHECK_THROWS_WITH(sensors(suite), doctest::Contains("sensor_file: sim_aero.instability_too_small"));
+  CHECK_THROWS_WITH(sensors(suite), doctest::Contains("sensor_file: sim_aero.instability_too_small("));
 }
 
 TEST_CASE("a noise density gives the same Allan deviation at every rate") {
@@ -365,10 +365,10 @@ TEST_CASE("samples come late, jittering, lost in gaps, with stamps that only gro
 TEST_CASE("timing that cannot be is refused by the sensor's name") {
   SensorSuite suite = none();
   suite.baro.timing = {50, 0, 0.01, 0, 0};
-  CHECK_THROWS_WITH(pass(*with(suite)), doctest::Contains("sim_aero.jitter_too_large(baro)"));
+  CHECK_THROWS_WITH(pass(*with(suite)), doctest::Contains("sim_aero.jitter_too_large(baro, 0.01, 0.009)"));
   suite.baro.timing = {50, 0, 0, 0, 0};
   suite.imu.timing.latency_s = 0.2;
-  CHECK_THROWS_WITH(pass(*with(suite)), doctest::Contains("sim_aero.latency_too_large(imu)"));
+  CHECK_THROWS_WITH(pass(*with(suite)), doctest::Contains("sim_aero.latency_too_large(imu, 0.2, "));
 }
 
 TEST_CASE("a receiver has no fix before it has started, and then the one of its file") {

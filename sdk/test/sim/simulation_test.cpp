@@ -230,7 +230,7 @@ TEST_CASE("arrays of another shape, numbers that are none and empty batches are 
   batch.rows(rows);
   CHECK(rows == before);
   CHECK(refusal([] { Batch none(anaconda(), 0); }) == "sim.batch_empty");
-  CHECK(refusal([] { Batch none(anaconda(), 1, {}, 1, 0); }) == "sim.batch_threads_invalid");
+  CHECK(refusal([] { Batch none(anaconda(), 1, {}, 1, 0); }) == "sim.batch_threads_invalid(0)");
 }
 
 TEST_CASE(

@@ -29,7 +29,7 @@ class Batch {
         unsigned threads = 1) {
     if (count == 0) throw std::invalid_argument(sim_messages::batch_empty().line());
     if (threads == 0 || threads > 256)
-      throw std::invalid_argument(sim_messages::batch_threads_invalid().line());
+      throw std::invalid_argument(sim_messages::batch_threads_invalid(threads).line());
     all_.reserve(count);
     for (std::size_t i = 0; i < count; ++i) all_.emplace_back(a, options, mix_seed(seed, i));
     try {

@@ -5,7 +5,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -27,7 +29,8 @@ struct FlightFolder {
   fs::path path;
   FlightFolder() {
     std::string name = (fs::temp_directory_path() / "fulmar-tune-XXXXXX").string();
-    if (!::mkdtemp(name.data())) throw core::Error(aero_messages::flight_folder_missing(name));
+    if (!::mkdtemp(name.data()))
+      throw core::Error(aero_messages::flight_folder_missing(name, std::strerror(errno)));
     path = name;
   }
   ~FlightFolder() {

@@ -16,7 +16,7 @@ void check_angle(Findings& f, const std::string& field, double rad, double most)
   if (std::abs(rad) <= most) return;
   const std::string hint =
       std::abs(rad) * degree <= most ? aero_messages::angle_in_degrees(figures(rad)).line() : "";
-  f.fault(field, rad, aero_messages::angle_too_large(figures(rad), degrees(rad, 0), hint));
+  f.fault(field, rad, aero_messages::angle_too_large(figures(rad), degrees(rad, 0), degrees(most, 0), hint));
 }
 
 void check_surface(Findings& f, const std::string& name, const Surface& s) {
@@ -49,7 +49,8 @@ void check_limits(Findings& f, const FlightLimits& l) {
             aero_messages::airspeeds_not_increasing(
                 figures(l.airspeed_min_mps), figures(l.airspeed_cruise_mps), figures(l.airspeed_max_mps)));
   if (l.pitch_min_rad >= l.pitch_max_rad)
-    f.fault("limits.pitch_min_rad", l.pitch_min_rad, aero_messages::pitch_limits_reversed());
+    f.fault("limits.pitch_min_rad", l.pitch_min_rad,
+            aero_messages::pitch_limits_reversed(degrees(l.pitch_min_rad, 1), degrees(l.pitch_max_rad, 1)));
   if (l.throttle_cruise_frac < 0 || l.throttle_cruise_frac > 1)
     f.fault("limits.throttle_cruise_frac", l.throttle_cruise_frac,
             aero_messages::cruise_throttle_invalid(figures(l.throttle_cruise_frac)));

@@ -8,34 +8,36 @@ namespace fulmar::aero_messages {
 inline constexpr MessageText adverse_yaw_high{
     "aero.adverse_yaw_high",
     {"value", "ratio"},
-    "Cn_da is {value}, {ratio} of Cl_da: the adverse yaw is very high; aircraft have up to 0.15 of Cl_da"};
+    "Cn_da is {value}, {ratio} of Cl_da: the adverse yaw is very high; aircraft have up to 0.15 of Cl_da. "
+    "Check its value and axes"};
 inline constexpr MessageText airspeeds_not_increasing{
     "aero.airspeeds_not_increasing",
     {"minimum", "cruise", "maximum"},
-    "the airspeeds {minimum}, {cruise} and {maximum} m/s do not increase from minimum to maximum"};
+    "the airspeeds {minimum}, {cruise} and {maximum} m/s must increase: limits.airspeed_min, "
+    "airspeed_cruise, airspeed_max. Correct one of them"};
 inline constexpr MessageText angle_in_degrees{
     "aero.angle_in_degrees", {"angle"}, ". The value may be in degrees; write '{angle} deg'"};
 inline constexpr MessageText angle_too_large{
-    "aero.angle_too_large", {"angle", "in_degrees", "hint"}, "the angle is {angle} rad, {in_degrees}{hint}"};
+    "aero.angle_too_large",
+    {"angle", "in_degrees", "limit", "hint"},
+    "the angle is {angle} rad, {in_degrees}; valid: up to {limit}{hint}"};
 inline constexpr MessageText area_unit_suspect{"aero.area_unit_suspect", "The area may be in another unit"};
 inline constexpr MessageText aspect_ratio_unusual{
     "aero.aspect_ratio_unusual",
     {"aspect_ratio"},
-    "the aspect ratio b^2/S is {aspect_ratio}; wings have 2 to 40"};
+    "the aspect ratio b^2/S is {aspect_ratio}; wings have 2 to 40. Check span and area, and their units"};
 inline constexpr MessageText coefficient_zero{
-    "aero.coefficient_zero",
-    {"symbol"},
-    "{symbol} is 0, which no aircraft has; the coefficient may be missing"};
+    "aero.coefficient_zero", {"symbol"}, "{symbol} is 0 or missing, which no aircraft has; set it"};
 inline constexpr MessageText coefficients_copied{
     "aero.coefficients_copied",
     {"same", "total", "aircraft"},
-    "{same} of {total} coefficients are exactly those of the {aircraft}, but wing area or span is not. The "
-    "coefficients may be copies"};
+    "{same} of {total} coefficients are exactly those of the {aircraft}, but wing area or span is not. They "
+    "may be copies; check them"};
 inline constexpr MessageText cross_derivative_nonzero{
     "aero.cross_derivative_nonzero",
     {"value"},
     "the value is {value}, and a symmetric aircraft has 0: the analysis has not converged, or the column is "
-    "another one"};
+    "another one. Set it to 0, or correct the analysis"};
 inline constexpr MessageText cruise_lift_unusual{"aero.cruise_lift_unusual",
                                                  {"lift_coefficient"},
                                                  "CL in cruise is {lift_coefficient}; the usual range is 0.2 "
@@ -53,7 +55,9 @@ inline constexpr MessageText derivative_converted_twice{
     {"corrected"},
     ": the value may be converted from degrees twice; it would then be {corrected} per rad"};
 inline constexpr MessageText derivative_omitted{
-    "aero.derivative_omitted", {"symbol"}, "{symbol} is 0; the coefficient may be missing"};
+    "aero.derivative_omitted",
+    {"symbol"},
+    "{symbol} is 0; the coefficient may be missing. Set it if it is known"};
 inline constexpr MessageText derivative_outside_class{
     "aero.derivative_outside_class",
     {"symbol", "value", "low", "high", "distance"},
@@ -64,7 +68,7 @@ inline constexpr MessageText derivative_per_degree{
     ": the value may be per degree; it would then be {corrected} per rad"};
 inline constexpr MessageText derivative_sign_wrong{"aero.derivative_sign_wrong",
                                                    {"symbol", "value", "sign", "consequence"},
-                                                   "{symbol} is {value}, and {sign} is right: {consequence}"};
+                                                   "{symbol} is {value}, but must be {sign}: {consequence}"};
 inline constexpr MessageText derivative_unusual{"aero.derivative_unusual",
                                                 {"symbol", "value", "low", "high", "hint"},
                                                 "{symbol} is {value}; aircraft have {low} to {high}{hint}"};
@@ -81,14 +85,14 @@ inline constexpr MessageText elevator_drag_excessive{
 inline constexpr MessageText elevator_trim_unusual{
     "aero.elevator_trim_unusual",
     {"trim", "required"},
-    "the trim is {trim}, and level cruise requires {required}"};
+    "the value is {trim}, but level cruise requires {required}; set it to {required}"};
 inline constexpr MessageText forward_thrust_missing{
     "aero.forward_thrust_missing", "the propellers together give no forward thrust; check tilt and toe"};
 inline constexpr MessageText gyration_radius_unusual{
     "aero.gyration_radius_unusual",
     {"radius", "ratio", "hint"},
-    "the radius of gyration is {radius} m, {ratio} of the span; aircraft have 0.08 to 0.2, a bare rod "
-    "0.29{hint}"};
+    "this inertia gives a radius of gyration of {radius} m, {ratio} of the span; aircraft have 0.08 to 0.2, "
+    "a bare rod 0.29{hint}"};
 inline constexpr MessageText induced_drag_doubled{
     "aero.induced_drag_doubled",
     "this term must be 0: drag always includes CL^2/(pi e AR), and C_D_alpha counts it twice. Set it to 0 "
@@ -120,15 +124,17 @@ inline constexpr MessageText mass_unit_suspect{"aero.mass_unit_suspect",
 inline constexpr MessageText minimum_airspeed_low{
     "aero.minimum_airspeed_low",
     {"airspeed", "stall_airspeed"},
-    "the minimum airspeed is {airspeed} m/s, and the wing stalls at {stall_airspeed} m/s; 1.2 times the "
-    "stall airspeed is usual"};
+    "the minimum airspeed is {airspeed} m/s, and the wing stalls at {stall_airspeed} m/s. Set it to about "
+    "1.2 times the stall airspeed"};
 inline constexpr MessageText mode_damping_low{
     "aero.mode_damping_low",
     {"mode", "damping_ratio", "limit", "consequence"},
-    "the damping ratio of the {mode} is {damping_ratio}, less than {limit}: {consequence}"};
-inline constexpr MessageText mode_unstable{"aero.mode_unstable",
-                                           {"mode", "doubling_time", "consequence"},
-                                           "the {mode} doubles in {doubling_time} s: {consequence}"};
+    "the damping ratio of the {mode} is {damping_ratio}, less than {limit}: {consequence}. Check these "
+    "derivatives, mass and inertia"};
+inline constexpr MessageText mode_unstable{
+    "aero.mode_unstable",
+    {"mode", "doubling_time", "consequence"},
+    "the {mode} doubles in {doubling_time} s: {consequence}. Check these derivatives, mass and inertia"};
 inline constexpr MessageText oswald_factor_unusual{
     "aero.oswald_factor_unusual", {"factor"}, "Oswald's factor is {factor}; wings have 0.6 to 1"};
 inline constexpr MessageText pack_resistance_unusual{
@@ -138,8 +144,8 @@ inline constexpr MessageText pack_resistance_unusual{
 inline constexpr MessageText paired_servos_differ{
     "aero.paired_servos_differ",
     {"left", "right", "part"},
-    "'{left}' and '{right}' are the left and the right {part}, and their servos differ: one moves "
-    "differently from the other"};
+    "'{left}' and '{right}' are the left and the right {part}, and their servos differ. Give both the same "
+    "limits, rates and time constants"};
 inline constexpr MessageText parasite_drag_doubled{
     "aero.parasite_drag_doubled",
     {"parasite_drag"},
@@ -150,18 +156,23 @@ inline constexpr MessageText pitch_coefficient_digit{
     {"found", "aircraft", "original"},
     "Cm_0 is {found}, ten times the {aircraft}'s {original}, and other coefficients are the same. A digit "
     "may be missing"};
-inline constexpr MessageText pitch_limits_reversed{"aero.pitch_limits_reversed",
-                                                   "the minimum pitch is not below the maximum"};
-inline constexpr MessageText pitch_power_low{"aero.pitch_power_low",
-                                             {"alpha", "required", "limit"},
-                                             "maximum lift, at {alpha}, requires {required} of elevator, "
-                                             "which moves {limit}: the aircraft cannot slow to the stall"};
+inline constexpr MessageText pitch_limits_reversed{
+    "aero.pitch_limits_reversed",
+    {"minimum", "maximum"},
+    "the minimum pitch, {minimum}, is not below the maximum, {maximum}. Correct pitch_min or pitch_max"};
+inline constexpr MessageText pitch_power_low{
+    "aero.pitch_power_low",
+    {"alpha", "required", "limit"},
+    "maximum lift, at {alpha}, requires {required} of elevator, which moves {limit}: the aircraft cannot "
+    "slow to the stall. Check the value and the throw"};
 inline constexpr MessageText pitch_rate_doubled{
     "aero.pitch_rate_doubled",
     {"corrected"},
     ": the rate may be q c/V instead of q c/2V; the value would then be {corrected}"};
 inline constexpr MessageText pitch_rate_drag_unusual{
-    "aero.pitch_rate_drag_unusual", {"found"}, "the value is {found}; the usual value is about 0"};
+    "aero.pitch_rate_drag_unusual",
+    {"found"},
+    "the value is {found}; aircraft have about 0. Check it, or set it to 0"};
 inline constexpr MessageText proverse_yaw{
     "aero.proverse_yaw",
     {"value", "ratio"},
@@ -174,15 +185,17 @@ inline constexpr MessageText rate_by_span{
 inline constexpr MessageText roll_power_low{
     "aero.roll_power_low",
     {"helix", "rate"},
-    "full aileron holds only p b/2V = {helix}, {rate} deg/s; the recommended value is 0.07"};
+    "full aileron holds only p b/2V = {helix}, {rate} deg/s; at least 0.07 is recommended. Check the value "
+    "and the throw of the aileron"};
 inline constexpr MessageText roll_rate_doubled{
     "aero.roll_rate_doubled",
     {"corrected"},
     ": the rate may be p b/V instead of p b/2V; the value would then be {corrected}"};
 inline constexpr MessageText rudder_derivative_zero{
     "aero.rudder_derivative_zero", {"symbol", "hint"}, "{symbol} is 0{hint}"};
-inline constexpr MessageText rudder_ineffective{"aero.rudder_ineffective",
-                                                ": the rudder has no effect; the aircraft turns without it"};
+inline constexpr MessageText rudder_ineffective{
+    "aero.rudder_ineffective",
+    ": the rudder has no effect; set the value, or the aircraft turns without rudder"};
 inline constexpr MessageText rudder_missing{
     "aero.rudder_missing",
     ": the aircraft has no rudder and no yaw control; it turns with the ailerons alone"};
@@ -205,12 +218,14 @@ inline constexpr MessageText servo_frequency_unusual{
     "aero.servo_frequency_unusual",
     {"frequency", "hint"},
     "the natural frequency is {frequency} rad/s; servos have 30 to 200{hint}"};
-inline constexpr MessageText servo_range_small{"aero.servo_range_small",
-                                               {"minimum", "maximum", "throw_limit"},
-                                               "the servo moves from {minimum} to {maximum}, but controllers "
-                                               "command up to the throw, {throw_limit} either way"};
+inline constexpr MessageText servo_range_small{
+    "aero.servo_range_small",
+    {"minimum", "maximum", "throw_limit"},
+    "the servo moves from {minimum} to {maximum}, but controllers command up to the throw, {throw_limit} "
+    "either way. Reduce limit, or correct min and max"};
 inline constexpr MessageText servo_rate_not_positive{
-    "aero.servo_rate_not_positive", "the rate limit is not above 0; the servo does not move"};
+    "aero.servo_rate_not_positive",
+    "the rate limit is not above 0, so the servo does not move; servos have 3 to 15 rad/s"};
 inline constexpr MessageText servo_rate_unusual{
     "aero.servo_rate_unusual",
     {"rate"},
@@ -218,10 +233,12 @@ inline constexpr MessageText servo_rate_unusual{
 inline constexpr MessageText sideslip_drag_asymmetric{
     "aero.sideslip_drag_asymmetric",
     {"linear", "square", "sideslip"},
-    "CD_beta is {linear} beside a square of {square}: drag is least at {sideslip} of sideslip. A symmetric "
-    "aircraft has the minimum at 0. Set CD_beta to 0; it is the remainder of a fit"};
+    "CD_beta is {linear} beside a square of {square}: drag is least at {sideslip} of sideslip, not at 0. Set "
+    "CD_beta, the remainder of a fit, to 0"};
 inline constexpr MessageText squared_drag_negative{
-    "aero.squared_drag_negative", {"found"}, "the value is {found}: the deflection would drive the aircraft"};
+    "aero.squared_drag_negative",
+    {"found"},
+    "the value is {found}: the deflection would drive the aircraft; valid: 0 or above"};
 inline constexpr MessageText stall_angle_low{
     "aero.stall_angle_low",
     {"alpha"},
@@ -242,8 +259,8 @@ inline constexpr MessageText static_margin_high{
 inline constexpr MessageText static_margin_low{
     "aero.static_margin_low",
     {"margin"},
-    "the static margin -Cm_alpha/CL_alpha is {margin} of the chord; the usual range is 0.05 to 0.3. The "
-    "aircraft is hardly stable in pitch"};
+    "the static margin -Cm_alpha/CL_alpha is {margin} of the chord; the usual range is 0.05 to 0.3. Check "
+    "Cm_alpha and the centre of gravity"};
 inline constexpr MessageText throw_too_small{
     "aero.throw_too_small", {"throw_limit"}, "the throw is only {throw_limit}; surfaces move 15 to 45 deg"};
 inline constexpr MessageText thrust_off_centre{
@@ -255,13 +272,14 @@ inline constexpr MessageText time_constant_unusual{
     "aero.time_constant_unusual",
     {"time_constant"},
     "the time constant is {time_constant} s; servos have 0.01 to 0.1 s. The value may be in ms"};
-inline constexpr MessageText trim_beyond_throw{"aero.trim_beyond_throw",
-                                               {"trim", "throw_limit"},
-                                               "the trim is {trim}, beyond the throw of {throw_limit}"};
-inline constexpr MessageText turning_bias{
-    "aero.turning_bias",
-    {"value"},
-    "the value is {value}, and a symmetric aircraft has 0: the aircraft would turn without a control input"};
+inline constexpr MessageText trim_beyond_throw{
+    "aero.trim_beyond_throw",
+    {"trim", "throw_limit"},
+    "the trim is {trim}, beyond the throw of {throw_limit}. Reduce trim, or increase limit"};
+inline constexpr MessageText turning_bias{"aero.turning_bias",
+                                          {"value"},
+                                          "the value is {value}, and a symmetric aircraft has 0: the "
+                                          "aircraft would turn without a control input. Set it to 0"};
 inline constexpr MessageText wing_dimensions_inconsistent{
     "aero.wing_dimensions_inconsistent",
     {"ratio"},
@@ -271,10 +289,10 @@ inline constexpr MessageText wing_loading_unusual{
     "aero.wing_loading_unusual",
     {"loading", "hint"},
     "the wing loading is {loading} kg/m2; small aircraft have 1 to 60. {hint}"};
-inline constexpr MessageText yaw_power_low{
-    "aero.yaw_power_low",
-    {"sideslip"},
-    "full rudder holds only {sideslip} of sideslip; 5 deg or more are usual"};
+inline constexpr MessageText yaw_power_low{"aero.yaw_power_low",
+                                           {"sideslip"},
+                                           "full rudder holds only {sideslip} of sideslip; 5 deg or more are "
+                                           "usual. Check the value and the throw of the rudder"};
 inline constexpr MessageText zero_lift_unusual{
     "aero.zero_lift_unusual",
     {"lift_coefficient", "alpha", "corrected"},

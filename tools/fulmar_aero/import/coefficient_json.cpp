@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A set of Beard & McLain's coefficients as JSON, in the names of Gryte et al. (ICUAS 2018) and pyfly:
 // Skywalker X8.
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "tools/fulmar_aero/import/messages.hpp"
@@ -15,8 +16,10 @@ class JsonSet {
   explicit JsonSet(const Lines& lines) : lines_(lines) {
     try {
       root_ = nlohmann::json::parse(lines.text);
-    } catch (const nlohmann::json::exception&) {
-      throw core::Error(located(lines.file, aero_messages::json_invalid()));
+    } catch (const nlohmann::json::parse_error& fault) {
+      const std::string read = lines.text.substr(0, fault.byte > 0 ? fault.byte - 1 : 0);
+      refuse(lines.where(std::size_t(std::count(read.begin(), read.end(), '\n'))),
+             aero_messages::json_invalid());
     }
     if (!root_.is_object()) throw core::Error(located(lines.file, aero_messages::json_object_expected()));
   }
@@ -58,7 +61,8 @@ Aircraft json_aircraft(const Lines& lines) {
   a.span_m = set.value("b");
   a.chord_m = set.value("c");
   for (const Value* value : {&a.area_m2, &a.span_m, &a.chord_m})
-    if (!(value->x > 0)) throw core::Error(located(value->from, aero_messages::positive_value_expected()));
+    if (!(value->x > 0))
+      throw core::Error(located(value->from, aero_messages::positive_value_expected(figures(value->x))));
   a.mass_kg = set.value("mass");
   a.xx = set.value("Jx");
   a.yy = set.value("Jy");

@@ -51,7 +51,8 @@ ImportOptions options_of(const ImportArguments& words) {
   }
   if (words.inertia.empty()) return options;
   if (words.inertia.size() != 3 && words.inertia.size() != 4)
-    throw CLI::ValidationError("--inertia", aero_messages::inertia_values_expected().line());
+    throw CLI::ValidationError("--inertia",
+                               aero_messages::inertia_values_expected(words.inertia.size()).line());
   for (std::size_t i = 0; i < words.inertia.size(); ++i) options.inertia[i] = words.inertia[i];
   if (!(options.inertia[0] > 0 && options.inertia[1] > 0 && options.inertia[2] > 0))
     throw CLI::ValidationError("--inertia", aero_messages::inertia_not_positive().line());

@@ -91,23 +91,24 @@ const Axis& axis_of(const Lines& lines, const Element& variable, const std::stri
 }
 
 void refuse_points(const Lines& lines, const Element& table, const std::string& who,
-                   const std::vector<double>& at) {
+                   const std::vector<double>& at, const Axis* axis) {
   for (std::size_t i = 1; i < at.size(); ++i)
     if (!(at[i] > at[i - 1]))
-      refuse(lines.where(table.line), fulmar::located(who, aero_messages::table_points_not_increasing(
-                                                               figures(at[i - 1]), figures(at[i]))));
+      refuse(lines.where(table.line),
+             fulmar::located(who, aero_messages::table_points_not_increasing(figures(at[i - 1] / axis->unit),
+                                                                             figures(at[i] / axis->unit))));
 }
 
 LookUp table_of(const Lines& lines, const Element& table, const std::string& who) {
+  const auto no = [&](std::size_t line, const Diagnostic& why) {
+    refuse(lines.where(line), fulmar::located(who, why));
+  };
   LookUp out;
   for (const Element& part : table.children) {
     if (part.name == "tableData") continue;
-    if (part.name != "independentVar")
-      refuse(lines.where(part.line),
-             fulmar::located(who, aero_messages::table_element_unsupported(part.name)));
+    if (part.name != "independentVar") no(part.line, aero_messages::table_element_unsupported(part.name));
     const std::string lookup = part.attribute("lookup");
-    if (lookup == "table")
-      refuse(lines.where(part.line), fulmar::located(who, aero_messages::table_states_unsupported()));
+    if (lookup == "table") no(part.line, aero_messages::table_states_unsupported());
     (lookup == "column" ? out.and_over : out.over) = &axis_of(lines, part, who);
   }
   if (!out.over)
@@ -122,10 +123,9 @@ LookUp table_of(const Lines& lines, const Element& table, const std::string& who
     const std::size_t wanted = heading ? 0 : 1 + std::max<std::size_t>(1, out.and_at.size());
     if (numbers.empty() || numbers.size() != words_of(rows.all[i]).size() ||
         (wanted > 0 && numbers.size() != wanted))
-      refuse(lines.where(data.line + i),
-             fulmar::located(who, aero_messages::table_row_invalid(
-                                      wanted > 0 ? std::to_string(wanted) + " numbers" : "points",
-                                      trimmed(rows.all[i]))));
+      no(data.line + i,
+         aero_messages::table_row_invalid(wanted > 0 ? std::to_string(wanted) + " numbers" : "points",
+                                          trimmed(rows.all[i])));
     if (heading) {
       for (const double x : numbers) out.and_at.push_back(x * out.and_over->unit);
       continue;
@@ -133,13 +133,11 @@ LookUp table_of(const Lines& lines, const Element& table, const std::string& who
     out.at.push_back(numbers[0] * out.over->unit);
     out.values.insert(out.values.end(), numbers.begin() + 1, numbers.end());
   }
-  if (out.at.empty()) refuse(lines.where(data.line), fulmar::located(who, aero_messages::table_empty()));
+  if (out.at.empty()) no(data.line, aero_messages::table_empty());
   if (out.at.size() > max_rows || out.and_at.size() > max_columns || out.values.size() > max_cells)
-    refuse(lines.where(data.line),
-           fulmar::located(who, aero_messages::table_too_large(out.at.size(),
-                                                               std::max<std::size_t>(1, out.and_at.size()))));
-  refuse_points(lines, table, who, out.at);
-  refuse_points(lines, table, who, out.and_at);
+    no(data.line, aero_messages::table_too_large(out.at.size(), std::max<std::size_t>(1, out.and_at.size())));
+  refuse_points(lines, table, who, out.at, out.over);
+  refuse_points(lines, table, who, out.and_at, out.and_over);
   return out;
 }
 
@@ -448,7 +446,9 @@ Aircraft jsbsim_aircraft(const Lines& lines) {
   a.span_m = measured(lines, metrics, "wingspan", lengths, "FT");
   a.chord_m = measured(lines, metrics, "chord", lengths, "FT");
   for (const Value* value : {&a.area_m2, &a.span_m, &a.chord_m})
-    if (!(value->x > 0)) throw core::Error(located(value->from, aero_messages::positive_value_expected()));
+    if (!(value->x > 0))
+      throw core::Error(located(value->from, aero_messages::positive_value_expected(
+                                                 figures(value->x) + (value == &a.area_m2 ? " m2" : " m"))));
   const std::map<std::string, double> inertias{{"SLUG*FT2", slug * ft * ft}, {"KG*M2", 1}};
   a.mass_kg = measured(lines, mass, "emptywt", {{"LBS", lb}, {"KG", 1}}, "LBS");
   a.xx = measured(lines, mass, "ixx", inertias, "SLUG*FT2");

@@ -7,6 +7,7 @@
 
 #include "tools/fulmar_aero/import/messages.hpp"
 #include "tools/fulmar_aero/import/readers.hpp"
+#include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero::imports {
 namespace {
@@ -65,8 +66,8 @@ void read_avl_header(const Lines& lines, const Pairs& pairs, double length, doub
                    pairs.value("Zref").x * length};
   a.has_reference = true;
   a.alpha_rad = pairs.value("Alpha", avl_degree);
-  if (std::abs(pairs.value("Beta").x) > 0.01)
-    refuse(lines.where(pairs.pair("Beta").line), aero_messages::avl_sideslip());
+  if (const Pair& beta = pairs.pair("Beta"); std::abs(beta.value) > 0.01)
+    refuse(lines.where(beta.line), aero_messages::avl_sideslip(figures(beta.value)));
   a.base[lift] = pairs.value("CLtot");
   a.base[drag] = pairs.value("CDtot");
   a.base[side] = pairs.value("CYtot");

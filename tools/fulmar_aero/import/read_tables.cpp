@@ -110,13 +110,18 @@ std::vector<double> triple(const Lines& lines, const std::string& name, std::str
   return values;
 }
 
+/// The number of the line, from 0, of a place in the text.
+std::size_t line_at(const Lines& lines, std::size_t place) {
+  return std::size_t(std::count(lines.text.begin(), lines.text.begin() + std::ptrdiff_t(place), '\n'));
+}
+
 /// Sum of the point masses; no text gives the place of the wings' own mass.
 Body point_masses(const Lines& lines, double length, double mass_unit_kg) {
   double mass = 0, at[3] = {}, square[3] = {}, xz = 0;
   for (std::size_t from = lines.text.find("<Point_Mass>"); from != std::string::npos;
        from = lines.text.find("<Point_Mass>", from + 1)) {
     const auto own = element(lines, "Mass", from), place = element(lines, "coordinates", from);
-    if (!own || !place) throw core::Error(located(lines.file, aero_messages::point_mass_incomplete()));
+    if (!own || !place) refuse(lines.where(line_at(lines, from)), aero_messages::point_mass_incomplete());
     const double m = element_number(lines, "Mass", *own) * mass_unit_kg;
     const std::vector<double> x = triple(lines, "coordinates", *place);
     mass += m;
@@ -302,7 +307,7 @@ Input read_vsp_masses(const Lines& lines, const ReadOptions& options) {
                             square = labelled(lines, "Ixx, Iyy, Izz", 3),
                             mixed = labelled(lines, "Ixy, Ixz, Iyz", 3);
   if (!(mass[0] > 0))
-    refuse(lines.where(*lines.find("Total Mass")), aero_messages::total_mass_not_positive());
+    refuse(lines.where(*lines.find("Total Mass")), aero_messages::total_mass_not_positive(figures(mass[0])));
   const std::string from = lines.place(*lines.find("Ixx, Iyy, Izz"), "mass properties");
   Body& body = input.body;
   body.mass_kg = {mass[0], lines.place(*lines.find("Total Mass"), "Total Mass, in kg")};

@@ -7,6 +7,7 @@
 
 #include "tools/fulmar_aero/import/messages.hpp"
 #include "tools/fulmar_aero/import/readers.hpp"
+#include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero::imports {
 namespace {
@@ -63,7 +64,7 @@ class ResultReader {
     const Value out = value(key, factor);
     if (!(out.x > 0))
       refuse(lines_.where(block_.rows.at(key).line),
-             fulmar::located(key, aero_messages::positive_value_expected()));
+             fulmar::located(key, aero_messages::positive_value_expected(figures(out.x / factor))));
     return out;
   }
   const ResultBlock& block() const { return block_; }

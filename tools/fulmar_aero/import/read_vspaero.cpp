@@ -8,6 +8,7 @@
 
 #include "tools/fulmar_aero/import/messages.hpp"
 #include "tools/fulmar_aero/import/readers.hpp"
+#include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero::imports {
 namespace {
@@ -149,8 +150,9 @@ Analysis analysis_in(const Lines& lines, const StabBlock& block, double length) 
     const auto found = headed(lines, block, key);
     if (!found) refuse(lines.where(block.first), aero_messages::heading_key_missing(key));
     if (!(found->value > 0))
-      refuse(lines.where(found->line),
-             fulmar::located(std::string(key), aero_messages::positive_value_expected()));
+      refuse(
+          lines.where(found->line),
+          fulmar::located(std::string(key), aero_messages::positive_value_expected(figures(found->value))));
     return Value(found->value * unit, lines.place(found->line, key));
   };
   a.area_m2 = reference("Sref_", length * length);

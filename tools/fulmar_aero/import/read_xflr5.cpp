@@ -7,6 +7,7 @@
 
 #include "tools/fulmar_aero/import/messages.hpp"
 #include "tools/fulmar_aero/import/readers.hpp"
+#include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero::imports {
 namespace {
@@ -109,7 +110,8 @@ LogHead head_of(const Lines& lines, const LogBlock& block) {
   head.span = {with_unit(lines, {span, line, unit}, "Reference length", length_unit(unit)),
                lines.place(line, "Reference length, the span")};
   if (!(head.density > 0 && head.area.x > 0 && head.span.x > 0))
-    refuse(lines.where(line), aero_messages::log_reference_not_positive());
+    refuse(lines.where(line), aero_messages::log_reference_not_positive(
+                                  figures(head.density), figures(head.area.x), figures(head.span.x)));
   return head;
 }
 
@@ -217,7 +219,8 @@ Input read_xflr5_log(const Lines& lines) {
   a.alpha_rad.x *= std::numbers::pi / 180;
   const Value speed = trimmed_at(lines, block, "VInf");
   a.airspeed_mps = speed.x;
-  if (!(speed.x > 0)) refuse(lines.where(block.first), aero_messages::log_airspeed_not_positive());
+  if (!(speed.x > 0))
+    refuse(lines.where(block.first), aero_messages::log_airspeed_not_positive(figures(speed.x)));
   a.density_kgm3 = head.density;
   const double rad = a.alpha_rad.x, flow = 0.5 * head.density * speed.x * head.area.x;
   // the chord of q is the plane's, which is not printed: Mw = Cma c rho V S / 2

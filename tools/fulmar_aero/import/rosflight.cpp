@@ -239,7 +239,8 @@ Aircraft rosflight_aircraft(const Lines& lines, bool mend) {
   a.span_m = needed(lines, all, "wing_b");
   a.chord_m = needed(lines, all, "wing_c");
   for (const Value* value : {&a.area_m2, &a.span_m, &a.chord_m})
-    if (!(value->x > 0)) throw core::Error(located(value->from, aero_messages::positive_value_expected()));
+    if (!(value->x > 0))
+      throw core::Error(located(value->from, aero_messages::positive_value_expected(figures(value->x))));
   a.oswald.from = "in rosflight_sim's code; wing_epsilon is not read";
   if (const Parameter* const mass = find(all, "mass")) a.mass_kg = mass->of;
   a.xx = inertia_of(lines, all, {"Jxx", "Jx"});

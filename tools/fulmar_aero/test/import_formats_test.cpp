@@ -280,7 +280,7 @@ TEST_CASE("JSBSim's tables over states are the airframe's, by their units and th
                            const std::string& more = "") {
     return refusal([&] { read(with_table(axis, variables, data, more)); });
   };
-  CHECK(says(refused("LIFT", by_alpha, "\n1 0.1\n1 0.2\n"), "table_points_not_increasing(0.0175, 0.0175)"));
+  CHECK(says(refused("LIFT", by_alpha, "\n1 0.1\n1 0.2\n"), "table_points_not_increasing(1, 1)"));
   CHECK(says(refused("LIFT", by_alpha, "\n1 0.1\n2\n"),
              "function 'tabled': aero.table_row_invalid(2 numbers, 2)"));
   CHECK(says(refused("LIFT", by_alpha, "\n1 0.1\n2 0.2 x\n"), "aero.table_row_invalid(2 numbers, 2 0.2 x)"));
@@ -366,7 +366,7 @@ TEST_CASE("OpenVSP's results as CSV: mass, parasite drag, derivatives") {
   }
   is_tern(aircraft({text}), 1e-6);
   CHECK(says(refusal([&] { aircraft({with(text, "FC_Sref_,0.4", "FC_Sref_,0")}); }),
-             "FC_Sref_: aero.positive_value_expected"));
+             "FC_Sref_: aero.positive_value_expected(0)"));
   CHECK(says(refusal([&] { aircraft({with(text, "FC_Beta_,0", "FC_Beta_,4")}); }),
              "result_sideslip(FC_Beta_)"));
 }

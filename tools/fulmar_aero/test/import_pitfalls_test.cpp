@@ -433,7 +433,7 @@ TEST_CASE("what is broken or foreign is refused with the line and what was expec
              "aero.heading_key_missing(Bref_)"));
   CHECK(
       says(refusal([&] { aircraft({with(tern_text("tern.st"), "Beta  =   0.00000", "Beta  =   5.00000")}); }),
-           "aero.avl_sideslip"));
+           "aero.avl_sideslip(5)"));
   CHECK(says(refusal([&] {
                aircraft({with(tern_text("tern_e.log"), "g\n\n   ___Center", "stone\n\n   ___Center")});
              }),

@@ -184,6 +184,14 @@ void doubt(const SixDerivatives& few, Aircraft& a) {
   }
 }
 
+Vlm solved(const GeometryFile& file, const Lattice& lattice, const Eigen::Vector3d& about, double wake_rad) {
+  try {
+    return Vlm(lattice, file.geometry->reference, about, wake_rad);
+  } catch (const core::Error& fault) {
+    throw core::Error(located(file.where("surfaces", 1u << 20), fault.diagnostic));
+  }
+}
+
 void lift_fault(const GeometryFile& file, double CL, const Aircraft& a, const Vlm& vlm) {
   constexpr double step = 5 * degree;
   const auto lift = [&](double alpha) { return vlm.forces({.alpha = alpha}).CL; };
@@ -193,7 +201,8 @@ void lift_fault(const GeometryFile& file, double CL, const Aircraft& a, const Vl
       located(file.where("limits", 1u << 20),
               aero_messages::cruise_lift_unreachable(
                   core::number_text(a.stream.airspeed_mps), figures(a.mass.mass_kg), figures(CL),
-                  of_wings ? "" : aero_messages::lift_not_of_wings(figures(slope), figures(far)).line())));
+                  of_wings ? aero_messages::cruise_condition_unsuitable().line()
+                           : aero_messages::lift_not_of_wings(figures(slope), figures(far)).line())));
 }
 
 }  // namespace
@@ -208,10 +217,10 @@ Aircraft aircraft_of(const GeometryFile& file, double density) {
   a.stream = stream_at(g.limits.airspeed_cruise_mps, g.altitude_m);
   const double CL = lift_needed(g, a.mass, a.stream);
   // the wake's angle from a few panels: its effect is small, and it then lies along the stream
-  const Vlm few(lattice_of(g, 0.4 * density), g.reference, a.mass.centre);
+  const Vlm few = solved(file, lattice_of(g, 0.4 * density), a.mass.centre, 0);
   const double wake = alpha_for(few, CL);
   if (std::isnan(wake)) lift_fault(file, CL, a, few);
-  const Vlm vlm(lattice, g.reference, a.mass.centre, wake);
+  const Vlm vlm = solved(file, lattice, a.mass.centre, wake);
   a.alpha_rad = alpha_for(vlm, CL);
   if (std::isnan(a.alpha_rad)) lift_fault(file, CL, a, vlm);
   const FlowState cruise{.alpha = a.alpha_rad};

@@ -202,7 +202,8 @@ class AvlFile {
     c.line = lines_[at_].number;
     if (!(in >> c.name >> c.gain >> c.hinge >> x >> y >> z >> c.duplicate))
       fail(aero_messages::control_incomplete());
-    if (std::abs(std::abs(c.gain) - 1) > 1e-6) fail(aero_messages::control_gain_unsupported(c.name));
+    if (std::abs(std::abs(c.gain) - 1) > 1e-6)
+      fail(aero_messages::control_gain_unsupported(c.name, core::number_text(c.gain)));
     if (!(c.hinge > 0 && c.hinge < 1))
       fail(aero_messages::control_hinge_unsupported(c.name, core::number_text(c.hinge)));
     drives(c);  // its name is known

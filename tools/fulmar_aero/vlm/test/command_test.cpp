@@ -215,7 +215,7 @@ TEST_CASE("surfaces of an AVL file: the same flow as drawn") {
   for (const Bad& bad :
        {Bad{"CONTROL\nelevator", "CONTROL\ncanard", "aero.control_name_unknown(canard)"},
         Bad{"0 0 0.0\n0.51", "1 0 0.0\n0.51", "wing.avl:3: aero.symmetry_plane_unsupported"},
-        Bad{"elevator 1.0", "elevator 2.0", "aero.control_gain_unsupported(elevator)"},
+        Bad{"elevator 1.0", "elevator 2.0", "aero.control_gain_unsupported(elevator, 2)"},
         Bad{"ANGLE\n-1.5", "NOWAKE\n-1.5", "aero.planform_keyword_unsupported(NOWAKE)"},
         Bad{"CONTROL\nelevator", "CONTROL\nrudder", "aero.control_section_single(rudder)"},
         Bad{"0.024 1.0", "0.024 one",

@@ -8,6 +8,6 @@ namespace fulmar::chart_messages {
 inline constexpr MessageText figure_too_small{
     "chart.figure_too_small",
     {"count", "noun", "width", "height"},
-    "is too small for its axes and {count}{noun}; it takes at least {width}x{height}mm"};
+    "is too small for its axes and {count}{noun}; give at least {width}x{height}mm"};
 
 }  // namespace fulmar::chart_messages

@@ -33,20 +33,21 @@ Recovery recover_log(const std::filesystem::path& from, const std::filesystem::p
   if (OutFile::grows(from)) throw Error(log_tool_messages::log_still_growing(from.string()));
   Salvage salvage(from), again(from);
   McapStream first(from, &salvage), second(from, &again);
-  Recovery recovery = recover_log(first, second, to);
+  Recovery recovery = recover_log(first, second, to, from.string());
   recovery.left_out = salvage.left_out();
   return recovery;
 }
 
-Recovery recover_log(McapStream& first, McapStream& second, const std::filesystem::path& to) {
+Recovery recover_log(McapStream& first, McapStream& second, const std::filesystem::path& to,
+                     const std::string& name) {
   std::size_t largest = 0;
   bool any = false;
   for (const McapFile::Message* m = first.next(); m; m = first.next(), any = true)
     largest = std::max(largest, m->data.size());
   const McapFile& log = first.log();
   if (!any && log.attachments.empty() && !log.complete)
-    throw Error(log_tool_messages::log_not_recoverable(
-        log.fault.empty() ? log_tool_messages::log_damaged().line() : log.fault));
+    throw Error(located(name, log_tool_messages::log_not_recoverable(
+                                  log.fault.empty() ? log_tool_messages::log_damaged().line() : log.fault)));
   McapWriter::Options options;
   options.file = to;
   options.profile = log.profile;

@@ -25,8 +25,9 @@ struct Recovery {
 Recovery recover_log(const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// The same for a file that is opened twice and may have grown in between: the copy ends at the first message
-/// that is new.
-Recovery recover_log(McapStream& first, McapStream& second, const std::filesystem::path& to);
+/// that is new. `name`: the log in the refusal.
+Recovery recover_log(McapStream& first, McapStream& second, const std::filesystem::path& to,
+                     const std::string& name = "");
 
 /// The same; returns the result of the writer.
 McapWriter::Result recover_mcap(const std::filesystem::path& from, const std::filesystem::path& to);

@@ -98,7 +98,7 @@ NamedFields::NamedFields(const McapFile& log, std::uint16_t channel, const TypeP
     if (c.encoding != "cdr" || schema == log.schemas.end() || schema->second.encoding != "ros2msg")
       throw Error(log_tool_messages::message_encoding_unsupported());
     theirs_ = core::parse_ros_definition(schema->second.name, schema->second.text);
-    if (theirs_->size > largest_message) throw Error(log_tool_messages::messages_too_large());
+    if (theirs_->size > largest_message) throw Error(log_tool_messages::messages_too_large(largest_message));
     plan_ = core::copy_plan(*theirs_, *all_optional(*ours));
   } catch (const Error& fault) {
     throw Error(located(topic_, fault.diagnostic));

@@ -242,7 +242,8 @@ class Parser {
     field.offset = align_up(end, align);
     field.items = list ? align_up(4, own) : 0;
     end = std::uint64_t{field.offset} + field.items + std::uint64_t{field.count} * field.stride;
-    if (end > largest_struct) throw Error(reading_messages::type_too_large(name, field.name, end));
+    if (end > largest_struct)
+      throw Error(reading_messages::type_too_large(name, field.name, end, largest_struct));
     made.align = std::max(made.align, align);
   }
 

@@ -159,7 +159,7 @@ TEST_CASE("a definition that cannot be read is refused with the line that is wro
         "a/msg/B: reading.line_fault(float64[x] y, reading.list_length_invalid)");
   CHECK(refused("float64[0] y\n") ==
         "a/msg/B: reading.line_fault(float64[0] y, reading.list_length_invalid)");
-  CHECK(refused("float64[4000000000] y\n") == "reading.type_too_large(a/msg/B, y, 32000000000)");
+  CHECK(refused("float64[4000000000] y\n") == "reading.type_too_large(a/msg/B, y, 32000000000, 67108864)");
   CHECK(refused(std::string("bool ") + std::string(300, 'x')).ends_with(", reading.field_name_too_long)"));
   std::string many;
   for (int i = 0; i < 20'001; ++i) many += "bool x" + std::to_string(i) + "\n";

@@ -297,7 +297,9 @@ json save_request(const FlightView& view, const std::string& component, const st
 
 json record_json(const FlightView& view, const std::string& component, const std::string& name) {
   const ParameterView* const p = find_parameter(view, component + "." + name);
-  if (!p) throw Error(live_messages::parameter_unknown(component, name));
+  if (!p)
+    throw Error(live_messages::parameter_unknown(
+        component, name, choices_text(component + "." + name, parameter_names(view))));
   if (p->info.kind != FULMAR_RECORD) throw Error(live_messages::parameter_not_record(component, name));
   return p->base.integer ? to_json(*p->info.type, p->base.data.data(), false) : json(nullptr);
 }

@@ -73,8 +73,9 @@ TEST_CASE_FIXTURE(Fixture, "the services of the host") {
   CHECK(call_json("/fulmar/reset_guards", "")["accepted"] == true);
   CHECK(call_json("/fulmar/record", R"({"component": "slc", "name": "roll_kp"})")["reason"] ==
         "live.parameter_not_record(slc, roll_kp)");
-  CHECK(call_json("/fulmar/record", R"({"component": "slc", "name": "fence"})")["reason"] ==
-        "live.parameter_unknown(slc, fence)");
+  CHECK(
+      call_json("/fulmar/record", R"({"component": "slc", "name": "fence"})")["reason"] ==
+      "live.parameter_unknown(slc, fence,  [] slc.roll_kp, slc.law, slc.note, slc.wind, slc.count, slc.on)");
   CHECK(call_json("/fulmar/view", "{}")["paused"] == false);
   CHECK(call_json("/fulmar/pause", "{}")["accepted"] == true);
   CHECK(call_json("/fulmar/pause", "{}")["reason"] == "mock.paused_already");

@@ -121,7 +121,8 @@ class Bag {
     Cursor packed = record.part(record.number<std::uint64_t>());
     std::string plain;
     if (!compression.empty()) {
-      if (compression != "zstd") record.fault(sensor_log_messages::chunk_packing_unsupported(compression));
+      if (compression != "zstd")
+        refuse(file_.key, sensor_log_messages::chunk_packing_unsupported(file_.path, compression));
       plain = unpacked(packed, size);
     }
     Cursor inside{&file_, compression.empty() ? packed.data : std::string_view(plain), 0, packed.base};

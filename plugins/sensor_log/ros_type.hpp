@@ -63,7 +63,7 @@ class RosType {
     put_stamp(stamps.logged, stamped_[0], wanted, table);
     put_stamp(stamps.published, stamped_[1], wanted, table);
     const auto head = bytes.take(4);
-    if (head[0] != 0 || head[1] != 1) bytes.fault(sensor_log_messages::message_not_xcdr());
+    if (head[0] != 0 || head[1] != 1) refuse(file_.key, sensor_log_messages::message_not_xcdr(file_.path));
     bytes = bytes.part(bytes.left());  // the alignment of numbers counts from here
     walk(fields_, bytes, wanted, &table);
   }

@@ -97,7 +97,7 @@ class Ulog {
     record.take(8);
     const std::string_view bits = record.take(8);
     for (std::size_t i = 0; i < bits.size(); ++i)
-      if ((bits[i] & ~(i == 0 ? 1 : 0)) != 0) record.fault(sensor_log_messages::log_too_new());
+      if ((bits[i] & ~(i == 0 ? 1 : 0)) != 0) refuse(file_.key, sensor_log_messages::log_too_new(file_.path));
     if (bits[0] == 0) return;
     for (std::uint64_t& begin : appended_) begin = record.number<std::uint64_t>();
   }

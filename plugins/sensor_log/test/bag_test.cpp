@@ -219,7 +219,7 @@ TEST_CASE("what cannot be read of a bag is refused in one sentence") {
   CHECK(refusal(imu_topic(), mcap_begin() + types + mcap_channel(1, 1, "/imu/data", "json") + mcap_end()) ==
         "log.imu.from.topic: sensor_log.encoding_unsupported(/imu/data, json, ros2msg)");
   CHECK(refusal(imu_topic(), mcap_begin() + mcap_chunk_of(types.size(), 0, "lz4", "foreign") + mcap_end())
-            .find("sensor_log.chunk_packing_unsupported(lz4)") != std::string::npos);
+            .find("sensor_log.chunk_packing_unsupported(flight.mcap, lz4)") != std::string::npos);
   const std::string whole = mcap_begin() + types + mcap_channel(1, 1, "/imu/data");
   CHECK(refusal(imu_topic(), whole + mcap_message(1, 0, std::string("\0\x01\0\0\1\2\3", 7)) + mcap_end())
             .find("sensor_log.data_cut") != std::string::npos);

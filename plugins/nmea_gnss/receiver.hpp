@@ -30,13 +30,13 @@ struct Receiver {
 
   void configure(const Params& p) {
     path_ = p.port.view();
-    if (path_.empty()) throw std::runtime_error(nmea_gnss_messages::port_missing().line());
+    if (path_.empty()) throw std::runtime_error(located("port", nmea_gnss_messages::port_missing()).line());
     struct stat found {};
     if (stat(path_.c_str(), &found) == 0 && !S_ISCHR(found.st_mode))
-      throw std::runtime_error(nmea_gnss_messages::port_not_serial(path_).line());
+      throw std::runtime_error(located("port", nmea_gnss_messages::port_not_serial(path_)).line());
     const auto code = baud_code(p.baud);
     if (!code) {
-      throw std::runtime_error(nmea_gnss_messages::baud_not_valid(p.baud.value).line());
+      throw std::runtime_error(located("baud", nmea_gnss_messages::baud_not_valid(p.baud.value)).line());
     }
     baud_ = *code;
     lines_ = {};

@@ -41,7 +41,10 @@ struct Twin {
 
   void configure(const Params& p) {
     if (p.latency * p.rate > static_cast<double>(late_.size() - 1))
-      throw std::runtime_error(nmea_gnss_messages::latency_too_long().line());
+      throw std::runtime_error(located("latency", nmea_gnss_messages::latency_too_long(
+                                                      p.latency.value, p.rate.value,
+                                                      static_cast<double>(late_.size() - 1) / p.rate))
+                                   .line());
     period_ns_ = std::llround(1e9 / p.rate);
     latency_ns_ = std::llround(1e9 * p.latency);
     decay_ = std::exp(-1 / (p.rate * p.correlation_time));

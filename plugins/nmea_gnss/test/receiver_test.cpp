@@ -101,14 +101,14 @@ TEST_CASE(
 TEST_CASE("a port that is not named, is no port, or a rate that no port has is refused in one sentence") {
   Bench<Receiver> bench;
   CHECK(bench.configure() == Status::failed);
-  CHECK(bench.error() == "nmea_gnss.port_missing");
+  CHECK(bench.error() == "port: nmea_gnss.port_missing");
   bench.params.port.value = "/etc/passwd";
   CHECK(bench.configure() == Status::failed);
-  CHECK(bench.error() == "nmea_gnss.port_not_serial(/etc/passwd)");
+  CHECK(bench.error() == "port: nmea_gnss.port_not_serial(/etc/passwd)");
   bench.params.port.value = "/dev/ttyUSB0";
   bench.params.baud.value = 12345;
   CHECK(bench.configure() == Status::failed);
-  CHECK(bench.error() == "nmea_gnss.baud_not_valid(12345)");
+  CHECK(bench.error() == "baud: nmea_gnss.baud_not_valid(12345)");
 }
 
 }  // namespace receiver_test

@@ -111,10 +111,10 @@ class Source {
 /// For `configure`. A path that does not exist yet is tried again in flight.
 inline std::string checked_path(std::string_view name) {
   std::string path(name);
-  if (path.empty()) throw std::runtime_error(joystick_messages::device_missing().line());
+  if (path.empty()) throw std::runtime_error(located("device", joystick_messages::device_missing()).line());
   struct stat found {};
   if (stat(path.c_str(), &found) == 0 && !S_ISCHR(found.st_mode) && !S_ISFIFO(found.st_mode))
-    throw std::runtime_error(joystick_messages::device_invalid(path).line());
+    throw std::runtime_error(located("device", joystick_messages::device_invalid(path)).line());
   return path;
 }
 

@@ -301,9 +301,9 @@ TEST_CASE("what can be no joystick is refused before the flight; what may not be
   std::ofstream(pipe.path()) << "text";
   use(bench, pipe);
   CHECK_THROWS_WITH(bench.component().configure(bench.params),
-                    ("joystick.device_invalid(" + pipe.path() + ")").c_str());
+                    ("device: joystick.device_invalid(" + pipe.path() + ")").c_str());
   bench.params.device.value = Text<128>("");
-  CHECK_THROWS_WITH(bench.component().configure(bench.params), "joystick.device_missing");
+  CHECK_THROWS_WITH(bench.component().configure(bench.params), "device: joystick.device_missing");
   std::filesystem::remove(pipe.path());
   if (geteuid() == 0) return;  // root has every permission
   pipe.make();

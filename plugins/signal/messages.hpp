@@ -11,7 +11,7 @@ inline constexpr MessageText aborted_by_airspeed_high{
 inline constexpr MessageText aborted_by_airspeed_low{"signal.aborted_by_airspeed_low",
                                                      "signal aborted: airspeed is below 1.1 times the stall"};
 inline constexpr MessageText aborted_by_estimate{"signal.aborted_by_estimate",
-                                                 "signal aborted: attitude, height or airspeed is not known"};
+                                                 "signal aborted: attitude, height or airspeed is not valid"};
 inline constexpr MessageText aborted_by_height{"signal.aborted_by_height",
                                                "signal aborted: height has moved by height_bound"};
 inline constexpr MessageText aborted_by_pilot{"signal.aborted_by_pilot",

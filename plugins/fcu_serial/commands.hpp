@@ -30,7 +30,9 @@ struct Throws {
  private:
   static double one(const Surface& s, const char* name) {
     if (!(s.limit_rad > 0.01) || !std::isfinite(s.limit_rad))
-      throw std::runtime_error(fcu_serial_messages::throw_too_small(name));
+      throw std::runtime_error(located("airframe." + std::string(name) + ".limit",
+                                       fcu_serial_messages::throw_too_small(name, s.limit_rad))
+                                   .line());
     return s.reversed ? -s.limit_rad : s.limit_rad;
   }
 };

@@ -7,13 +7,13 @@ namespace fulmar::fcu_serial_messages {
 
 inline constexpr MessageText armed{"fcu_serial.armed", "armed"};
 inline constexpr MessageText attitude_known{"fcu_serial.attitude_known",
-                                            "the attitude is known again: commands are sent"};
+                                            "the attitude is valid again: commands are sent"};
 inline constexpr MessageText attitude_lost{
     "fcu_serial.attitude_lost", "pilot: take over. The attitude is lost, the surfaces are only held"};
 inline constexpr MessageText attitude_switch{"fcu_serial.attitude_switch", "attitude switch"};
 inline constexpr MessageText attitude_unknown{
     "fcu_serial.attitude_unknown",
-    "the attitude is not known: no command is sent, the pilot has the aircraft"};
+    "the attitude is not valid: no command is sent, the pilot has the aircraft"};
 inline constexpr MessageText attitude_valid{"fcu_serial.attitude_valid", "the attitude is valid again"};
 inline constexpr MessageText aux_not_finite{"fcu_serial.aux_not_finite",
                                             "an auxiliary output is not finite; such outputs are not sent"};
@@ -28,7 +28,7 @@ inline constexpr MessageText computer_fast_again{"fcu_serial.computer_fast_again
 inline constexpr MessageText computer_slow{
     "fcu_serial.computer_slow",
     {"share"},
-    "this computer is too slow: {share} % of the inertial samples are too old when it comes to them"};
+    "this computer is too slow: {share} % of the inertial samples are too old when they are read"};
 inline constexpr MessageText connected{"fcu_serial.connected", {"version"}, "connected: ROSflight {version}"};
 inline constexpr MessageText connected_armed{
     "fcu_serial.connected_armed", "connected: an armed flight controller, which does not report its version"};
@@ -49,7 +49,7 @@ inline constexpr MessageText device_gone{"fcu_serial.device_gone",
 inline constexpr MessageText device_silent{
     "fcu_serial.device_silent",
     {"port"},
-    "nothing comes from {port}: is the flight controller powered, and is this its port?"};
+    "{port} sends no data. Check that the flight controller has power, and that this is its port"};
 inline constexpr MessageText disarmed{"fcu_serial.disarmed", "disarmed"};
 inline constexpr MessageText error_gone{"fcu_serial.error_gone", {"error"}, "no longer: {error}"};
 inline constexpr MessageText error_reported{
@@ -71,14 +71,14 @@ inline constexpr MessageText firmware_too_old{
 inline constexpr MessageText firmware_untried{"fcu_serial.firmware_untried",
                                               {"tried", "version"},
                                               "firmware not tried with Fulmar ({tried} was): {version}"};
-inline constexpr MessageText frames_missing{
-    "fcu_serial.frames_missing",
-    {"bytes", "port"},
-    "of {bytes} bytes from {port} none is a MAVLink 1 frame: name another port"};
+inline constexpr MessageText frames_missing{"fcu_serial.frames_missing",
+                                            {"bytes", "port"},
+                                            "{port} sends {bytes} bytes, but no MAVLink 1 frame: it is not a "
+                                            "ROSflight flight controller. Name another port"};
 inline constexpr MessageText frames_missing_at_baud{
     "fcu_serial.frames_missing_at_baud",
     {"bytes", "port", "baud"},
-    "of {bytes} bytes from {port} at {baud} baud none is a MAVLink 1 frame: set the baud rate of the flight "
+    "{port} sends {bytes} bytes at {baud} baud, but no MAVLink 1 frame. Set the baud rate of the flight "
     "controller (ROSflight: 921600), or name another port"};
 inline constexpr MessageText gnss_back{"fcu_serial.gnss_back", {"time"}, "GNSS is back after {time} s"};
 inline constexpr MessageText gnss_lost{"fcu_serial.gnss_lost",
@@ -86,8 +86,8 @@ inline constexpr MessageText gnss_lost{"fcu_serial.gnss_lost",
 inline constexpr MessageText imu_back{"fcu_serial.imu_back", "inertial samples come again"};
 inline constexpr MessageText imu_missing{"fcu_serial.imu_missing",
                                          {"port"},
-                                         "{port} sends MAVLink, but no inertial samples: no ROSflight 2, or "
-                                         "its inertial unit is dead; power-cycle it, or flash it"};
+                                         "{port} sends MAVLink, but no inertial samples. Power-cycle the "
+                                         "flight controller; if that does not help, flash ROSflight 2"};
 inline constexpr MessageText imu_silent{
     "fcu_serial.imu_silent", "no inertial samples: the flight controller's own control has stopped"};
 inline constexpr MessageText imu_uncalibrated{"fcu_serial.imu_uncalibrated",
@@ -98,15 +98,15 @@ inline constexpr MessageText in_control{"fcu_serial.in_control", "in control"};
 inline constexpr MessageText lower_throttle{"fcu_serial.lower_throttle", "lower throttle"};
 inline constexpr MessageText mavlink_2{"fcu_serial.mavlink_2",
                                        {"port"},
-                                       "{port} sends MAVLink 2, as PX4 and ArduPilot do: Fulmar needs a "
-                                       "flight controller with ROSflight firmware 2"};
+                                       "{port} sends MAVLink 2, as PX4 and ArduPilot do. Connect a flight "
+                                       "controller with ROSflight 2, or flash it"};
 inline constexpr MessageText mixer_invalid{"fcu_serial.mixer_invalid", "invalid mixer: set PRIMARY_MIXER"};
 // An H7 board cannot reboot itself.
 inline constexpr MessageText not_fixed_wing{
     "fcu_serial.not_fixed_wing",
     {"port"},
-    "the flight controller at {port} is set up for a multirotor: set FIXED_WING to 1, PRIMARY_MIXER to the "
-    "aircraft's, write, and power-cycle it"};
+    "the flight controller at {port} is set up for a multirotor. Set FIXED_WING to 1 and PRIMARY_MIXER to 9, "
+    "10 or 11, write the parameters, and power-cycle it"};
 inline constexpr MessageText not_in_control{"fcu_serial.not_in_control", "not in control"};
 inline constexpr MessageText not_ready{"fcu_serial.not_ready", {"missing"}, "not ready: {missing}"};
 inline constexpr MessageText not_ready_armed_before{
@@ -116,7 +116,8 @@ inline constexpr MessageText not_ready_armed_before{
 inline constexpr MessageText other_autopilot{
     "fcu_serial.other_autopilot",
     {"port", "make"},
-    "the autopilot at {port} is of another make (MAV_AUTOPILOT {make}): ROSflight 2 is needed"};
+    "the autopilot at {port} is of another make (MAV_AUTOPILOT {make}). Connect a flight controller with "
+    "ROSflight 2, or flash it"};
 inline constexpr MessageText param_changed{
     "fcu_serial.param_changed", {"name", "value"}, "the flight controller's {name} is now {value}"};
 inline constexpr MessageText params_changed{
@@ -144,13 +145,13 @@ inline constexpr MessageText pitot_zeroed_in_flight{
     "airspeed zeroed in flight by a reboot: pitot not used any more, restart on the ground"};
 inline constexpr MessageText port_unset{
     "fcu_serial.port_unset",
-    "the parameter 'port' is not set; it names the flight controller's port, such as /dev/ttyACM0"};
+    "the parameter 'port' is not set. Name the flight controller's port, such as /dev/ttyACM0"};
 inline constexpr MessageText radio_back{"fcu_serial.radio_back", "frames of the radio come again"};
 inline constexpr MessageText radio_frozen{
     "fcu_serial.radio_frozen", "no frames of the radio: the outputs are frozen, commands move nothing"};
 inline constexpr MessageText radio_lost{"fcu_serial.radio_lost", "no radio: switch the transmitter on"};
 inline constexpr MessageText radio_missing{
-    "fcu_serial.radio_missing", "no frames of the radio: is the receiver connected, and RC_TYPE right?"};
+    "fcu_serial.radio_missing", "no frames of the radio: check the plug of the receiver, and RC_TYPE"};
 inline constexpr MessageText ready{"fcu_serial.ready", "ready"};
 inline constexpr MessageText ready_but{"fcu_serial.ready_but", {"missing"}, "ready, but {missing}"};
 inline constexpr MessageText ready_switch_back{"fcu_serial.ready_switch_back",
@@ -166,28 +167,28 @@ inline constexpr MessageText rebooted_armed{
 inline constexpr MessageText reversed_twice{
     "fcu_serial.reversed_twice",
     {"parameter"},
-    "{parameter} is set, and the airframe file reverses it again: take one away"};
+    "{parameter} is set, and the airframe file reverses it again: remove one of them"};
 inline constexpr MessageText roll_stick{"fcu_serial.roll_stick", "roll stick"};
 inline constexpr MessageText secondary_mixer_unset{
     "fcu_serial.secondary_mixer_unset",
     "flight controller: no secondary mixer, the primary one serves for both"};
 inline constexpr MessageText sensors_dead{
     "fcu_serial.sensors_dead", {"count"}, "{count} sensors of the flight controller did not start"};
-inline constexpr MessageText state_unwired{"fcu_serial.state_unwired",
-                                           "send_attitude: nothing comes to the input 'state'; is it wired?"};
+inline constexpr MessageText state_unwired{
+    "fcu_serial.state_unwired", "send_attitude: the input 'state' gets no data. Connect it in wires:"};
 inline constexpr MessageText stood_still{
     "fcu_serial.stood_still",
     {"time"},
     "this computer stood still for {time} s: no command went out meanwhile"};
-inline constexpr MessageText text_received{"fcu_serial.text_received",
-                                           {"port"},
-                                           "{port} sends text, not MAVLink: it is no flight controller, a "
-                                           "satellite receiver perhaps; name another port"};
+inline constexpr MessageText text_received{
+    "fcu_serial.text_received",
+    {"port"},
+    "{port} sends text, not MAVLink: it may be a GNSS receiver. Name the port of the flight controller"};
 inline constexpr MessageText throttle_switch{"fcu_serial.throttle_switch", "throttle switch"};
 inline constexpr MessageText throw_too_small{
     "fcu_serial.throw_too_small",
-    {"surface"},
-    "the airframe's {surface}.limit is its throw; it must be more than 0.01 rad"};
+    {"surface", "found"},
+    "{found} rad is too small for the throw of the {surface}: give more than 0.01 rad"};
 inline constexpr MessageText time_backwards{"fcu_serial.time_backwards",
                                             "its time went backwards: power-cycle it"};
 inline constexpr MessageText values_implausible{
@@ -195,7 +196,7 @@ inline constexpr MessageText values_implausible{
 inline constexpr MessageText version_missing{"fcu_serial.version_missing",
                                              {"port"},
                                              "the flight controller at {port} does not report its version: "
-                                             "it is older than ROSflight 2.0; flash version 2.0 or later"};
+                                             "it is older than ROSflight 2.0. Flash version 2.0 or later"};
 inline constexpr MessageText yaw_stick{"fcu_serial.yaw_stick", "yaw stick"};
 
 }  // namespace fulmar::fcu_serial_messages

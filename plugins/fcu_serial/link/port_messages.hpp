@@ -19,20 +19,23 @@ inline constexpr MessageText device_access_denied{
     "the permissions of {device} do not allow access. Join its group with 'sudo usermod -aG {group} $USER' "
     "and log in again, or install the udev rule of docs/hardware.md"};
 inline constexpr MessageText device_lost{
-    "port.device_lost", {"device"}, "{device} has disappeared: check that it is still plugged in"};
+    "port.device_lost", {"device"}, "{device} has disappeared: plug it in again, and start again"};
 inline constexpr MessageText device_missing{
     "port.device_missing",
     {"device", "candidates"},
     "the device {device} does not exist ({candidates}): plug in the flight controller, or name its port"};
 inline constexpr MessageText device_not_openable{
-    "port.device_not_openable", {"device", "reason"}, "cannot open {device}: {reason}"};
+    "port.device_not_openable",
+    {"device", "reason"},
+    "cannot open {device}: {reason}. Reconnect it, or name another port"};
 inline constexpr MessageText device_not_serial{
     "port.device_not_serial",
     {"device"},
     "{device} is not a serial port: name one, such as /dev/ttyACM0, or udp:ADDRESS:PORT"};
-inline constexpr MessageText format_setup_failed{"port.format_setup_failed",
-                                                 {"device", "reason"},
-                                                 "cannot set {device} to 8 bits without parity: {reason}"};
+inline constexpr MessageText format_setup_failed{
+    "port.format_setup_failed",
+    {"device", "reason"},
+    "cannot set {device} to 8 bits without parity: {reason}. Reconnect it, or name another port"};
 inline constexpr MessageText ip_address_invalid{
     "port.ip_address_invalid",
     {"host", "address"},
@@ -46,7 +49,9 @@ inline constexpr MessageText port_in_use{
 inline constexpr MessageText port_missing{
     "port.port_missing", "the port is empty: name a device, such as /dev/ttyACM0, or udp:ADDRESS:PORT"};
 inline constexpr MessageText port_setup_failed{
-    "port.port_setup_failed", {"device", "reason"}, "cannot set up {device}: {reason}"};
+    "port.port_setup_failed",
+    {"device", "reason"},
+    "cannot set up {device}: {reason}. Reconnect it, or name another port"};
 inline constexpr MessageText udp_address_invalid{
     "port.udp_address_invalid",
     {"address"},

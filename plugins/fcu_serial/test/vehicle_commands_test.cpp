@@ -81,7 +81,7 @@ TEST_CASE("a command with one value that is not finite is none") {
 TEST_CASE("an airframe without throws is refused, and the surface is named") {
   Airframe a = airframe();
   a.rudder.limit_rad = 0;
-  CHECK_THROWS_WITH(Throws::of(a), "fcu_serial.throw_too_small(rudder)");
+  CHECK_THROWS_WITH(Throws::of(a), "airframe.rudder.limit: fcu_serial.throw_too_small(rudder, 0)");
   a.rudder.limit_rad = not_a_number;
   CHECK_THROWS(Throws::of(a));
 }

@@ -279,7 +279,7 @@ TEST_CASE("what cannot be flown is refused by configure, within 5 s") {
   SUBCASE("an airframe without throws") {
     World world;
     CHECK(refusal(world, [](auto& bench) { bench.params.airframe.value.aileron.limit_rad = 0; }) ==
-          "fcu_serial.throw_too_small(aileron)");
+          "airframe.aileron.limit: fcu_serial.throw_too_small(aileron, 0)");
   }
 }
 

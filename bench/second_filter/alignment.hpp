@@ -246,7 +246,16 @@ inline void Navigator::regain(const Gnss& g, const FlightAlignment::Found& found
   begin_again(found.q_nb, eigen(g.velocity_mps) + found.since_n, p, std::clamp(1.5 * tilt, 0.05, 0.2),
               has_mag ? 0.15 : 0.4);
   seen_.yaw = true;
-  place(g, time_s, p);
+  if (seen_.position) {  // the errors of receiver and barometer are those of before the gap
+    const Vector3d p_n = frame_.to_ned(g.latitude_deg, g.longitude_deg, g.altitude_m) +
+                         std::max(time_s_ - time_s, 0.0) * filter_.state().v_n();
+    for (int i = 0; i < 3; ++i) {
+      const double white = p.gnss_white * (i < 2 ? fix_std_.x() : fix_std_.y());
+      filter_.fuse(fix_position(filter_, filter_.at(time_s_), i, p_n(i)), white * white, 1e9, all_);
+    }
+  } else {
+    place(g, time_s, p);
+  }
   count_reset(before);
   health_.horizontal.accepted_s = health_.velocity.accepted_s = health_.height.accepted_s = time_s_;
 }

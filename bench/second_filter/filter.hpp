@@ -32,7 +32,8 @@ class Filter {
  public:
   Unit unit;
   double gravity_mps2 = 9.80665;
-  double wind_shear = 0;  ///< 1/sqrt(s): added to the walk of the wind per m/s of climb
+  double sideslip_gust = 0;  ///< share of a change of the gust across the aircraft that becomes sideslip
+  double wind_shear = 0;     ///< 1/sqrt(s): added to the walk of the wind per m/s of climb
 
   /// Model of the block that begins at `first`. Throws std::out_of_range when there is none.
   Block& block(int first) {
@@ -115,6 +116,9 @@ class Filter {
     if (!std::isfinite(ratio)) return {false, ratio};
     const bool accepted = std::abs(ratio) <= gate;
     if (!accepted && !force) {
+      // The first rejection: a jump has just happened, and a window that began before would blur it.
+      if (time_s_ - rejected_s_ > calm_s) jumps_[0].begin(time_s_);
+      rejected_s_ = time_s_;
       for (Jumps& jumps : jumps_) jumps.fused(z.H, Vector::Zero(), z.innovation, expected, gate);
       return {false, ratio};
     }
@@ -130,37 +134,38 @@ class Filter {
   void begin_jumps() {
     for (Jumps& jumps : jumps_) jumps.begin(time_s_);
   }
-  /// Looks for a jump whose likelihood ratio exceeds `least`, by more in a short window, where a motion
-  /// outside the model may look like one. The state becomes the mean of all hypotheses, weighted with their
-  /// likelihoods, and the covariance that of their mixture.
-  Fault find_fault(double least) {
+  /// Looks for a jump whose likelihood ratio exceeds `least`, by more in a short window and with a unit that
+  /// errs under motion, where a motion outside the model may look like one. The state becomes the mean of all
+  /// hypotheses, weighted with their likelihoods, and the covariance that of their mixture.
+  Fault find_fault(double least, bool judge_unit = true) {
     Fault fault;
+    const double doubt = 1 + std::max(0.0, 0.5 * std::log(unit.motion));
     for (Jumps& jumps : jumps_) {
-      const Jumps::PerJump ratio = jumps.ratio(time_s_, unit.motion < judged_motion);
-      int best = 0;
-      const double most = ratio.maxCoeff(&best);
-      const MayJump& suspect = may_jump[static_cast<std::size_t>(best)];
-      if (!(most > least * (1 + Jumps::hasty_s / jumps.window_s())) ||
+      const Jumps::PerJump ratio = jumps.ratio(time_s_, judge_unit && unit.motion < judged_motion);
+      const auto best =
+          static_cast<std::size_t>(std::max_element(ratio.begin(), ratio.end()) - ratio.begin());
+      const double most = ratio[best];
+      const MayJump& suspect = may_jump[best];
+      if (!(most > least * doubt * (1 + Jumps::hasty_s / jumps.window_s())) ||
           std::abs(jumps.size_of(best)) < suspect.least) {
         if (jumps.over(time_s_)) jumps.begin(time_s_);
         continue;
       }
-      fault = {suspect.state, jumps.size_of(best), most};
+      fault = {suspect.first, jumps.size_of(best), most, suspect.ramp};
       Vector mean = Vector::Zero();
       Covariance spread = Covariance::Zero();
       double weights = 0;
-      for (int i = 0; i < Jumps::count; ++i) {
-        const double weight = std::exp(0.5 * (ratio(i) - most));
+      for (std::size_t i = 0; i < Jumps::count; ++i) {
+        const double weight = std::exp(0.5 * (ratio[i] - most));
         if (weight < 0.01) continue;
-        const Vector e = jumps.error(i), jump = e * jumps.size_of(i);
+        const Vector jump = jumps.change(i);
         weights += weight;
         mean += weight * jump;
-        spread += weight * (jump * jump.transpose() + jumps.variance_of(i) * e * e.transpose());
+        spread += weight * (jump * jump.transpose() + jumps.spread(i));
       }
       mean /= weights;
       P_ += spread / weights - mean * mean.transpose();
-      const double relearnt = relearnt_share * fault.size;
-      P_(fault.state, fault.state) += relearnt * relearnt;
+      inflate(suspect.first, suspect.count, relearnt_share * std::abs(fault.size));
       correct(mean);
       for (Jumps& each : jumps_) each.begin(time_s_);
       return fault;
@@ -232,8 +237,11 @@ class Filter {
 
  private:
   static constexpr double covariance_period_s = 0.01;  ///< the state follows every sample
-  static constexpr double judged_motion = 4;     ///< beyond, a motion outside the model looks like a fault
-  static constexpr double relearnt_share = 0.3;  ///< of a jump: its standard deviation afterwards
+  static constexpr double judged_motion = 4;  ///< beyond, a motion outside the model looks like a fault
+  static constexpr double biased_share =
+      0.007;                             ///< 1/s: scale errors of the unit that look like a bias for a time
+  static constexpr double calm_s = 0.5;  ///< without a rejection
+  static constexpr double relearnt_share = 0.1;  ///< of a jump: its standard deviation afterwards
   static constexpr int most_blocks = 20 + size - appended;
 
   struct Step {  ///< since the last update of the covariance
@@ -316,9 +324,17 @@ class Filter {
       for (int i = 0; i < size; ++i) P_.col(i) = P_.col(i).cwiseProduct(decay_ * decay_(i));
     }
     P_.diagonal() += noise_;
+    // A gust from the side is sideslip until the aircraft has turned into it.
+    const Vector2d across = R_nb_.col(1).head<2>(), slipped = sideslip_gust * noise_(gust) * across;
+    P_(slip, slip) += sideslip_gust * slipped.dot(across);
+    P_.block<2, 1>(gust, slip) -= slipped;
+    P_.block<1, 2>(slip, gust) -= slipped.transpose();
     const double turn = unit.gyro_scale * step_.turn.norm() / T,
                  load = unit.accel_scale * std::abs(step_.dv.norm() / T - gravity_mps2);
     const double by_load = unit.motion * load * load * T;
+    const double bias_T = unit.motion * biased_share * biased_share * T;
+    P_.diagonal().segment<3>(gyro_bias).array() += turn * turn * bias_T;
+    P_.diagonal().segment<3>(accel_bias).array() += load * load * bias_T;
     P_.diagonal().segment<3>(theta).array() += (unit.gyro * unit.gyro + unit.motion * turn * turn) * T;
     P_.diagonal().segment<3>(vel).array() += unit.accel * unit.accel * T + by_load;
     motion_variance_ += by_load;
@@ -364,7 +380,7 @@ class Filter {
   Nominal x_;
   Matrix3d R_nb_ = Matrix3d::Identity();
   Covariance P_ = Covariance::Zero();
-  double time_s_ = 0;
+  double time_s_ = 0, rejected_s_ = -1e9;
   Vector3d omega_ = Vector3d::Zero(), f_ = Vector3d::Zero();
   bool has_sample_ = false;
   Step step_;

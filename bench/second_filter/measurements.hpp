@@ -69,16 +69,16 @@ inline Scalar baro_height(const Filter& f, double pressure_pa, double origin_alt
 }
 inline double metres_per_pascal(const Air& air) { return 1 / (air.density_kgm3 * isa::g0); }
 
-/// Airspeed of the pitot: |u_n| with its scale and bias. A pitot reads the magnitude of the air velocity up
-/// to some 15 degrees of incidence.
-inline Scalar tube_airspeed(const Filter& f, double measured_mps) {
+/// Pressure of the pitot: rho (s |u_n|)^2 / 2 with its scale s, and its bias. A pitot reads the magnitude of
+/// the air velocity up to some 15 degrees of incidence. `scale`: ratio of measured to true airspeed.
+inline Scalar tube_pressure(const Filter& f, double measured_pa, double density_kgm3, double scale) {
   const Vector3d u_n = f.state().through_air_n();
-  const double Va = std::max(u_n.norm(), 1e-3), scale = 1 + f(tube_scale);
+  const double s = scale * (1 + f(tube_scale)), by_speed = density_kgm3 * s * s;
   Scalar z;
-  z.innovation = measured_mps - scale * Va - f(tube_bias);
-  z.H.segment<3>(vel) = scale / Va * u_n.transpose();
-  z.H.segment<2>(wind) = z.H.segment<2>(gust) = -scale / Va * u_n.head<2>().transpose();
-  z.H(tube_scale) = Va;
+  z.innovation = measured_pa - 0.5 * by_speed * u_n.squaredNorm() - f(tube_bias);
+  z.H.segment<3>(vel) = by_speed * u_n.transpose();
+  z.H.segment<2>(wind) = z.H.segment<2>(gust) = -by_speed * u_n.head<2>().transpose();
+  z.H(tube_scale) = density_kgm3 * s * scale * u_n.squaredNorm();
   z.H(tube_bias) = 1;
   return z;
 }

@@ -124,7 +124,7 @@ class Level {
     const double r = std::clamp(ratio, -most, most), step = std::min(dt_s, 1.0) / time_s;
     const double size = r * r - mean, lasting = r * before_[i];
     white_ = std::clamp(white_ + step * (size - lasting), least, largest);
-    slow_ = std::clamp(slow_ + step * (size + lasting), least, largest);
+    slow_ = std::clamp(slow_ + step * (size + lasting), 3 * least, largest);
     before_[i] = r;
   }
   /// A variance that is `share` of that of the innovation: the gradient of the likelihood.
@@ -256,6 +256,12 @@ struct Aid {
   }
   /// A fault was found a short time ago: its error is being learnt.
   bool faulty(double now_s) const { return now_s - faulty_s < faulty_for_s; }
+  void fault(double now_s, bool ramp) {
+    faulty_s = now_s;
+    changing_s_ = ramp ? drifts_for_s : settles_s;
+  }
+  /// 1 at a fault, fading to 0.
+  double changing(double now_s) const { return std::exp(-(now_s - faulty_s) / changing_s_); }
   bool stuck(bool flying) const { return flying && arrivals.stuck(); }
   /// Rejected for so long that the estimate may be the one that is wrong.
   bool insists(double now_s) const { return refused_from_s != never && now_s - refused_from_s > insists_s; }
@@ -274,7 +280,8 @@ struct Aid {
   }
 
  private:
-  static constexpr double refused_s = 1, faulty_for_s = 30, insists_s = 4;
+  static constexpr double refused_s = 1, faulty_for_s = 30, settles_s = 5, drifts_for_s = 30, insists_s = 4;
+  double changing_s_ = settles_s;
   double recorded_s_ = never;
 };
 

@@ -68,7 +68,10 @@ class Navigator {  ///< from samples of sensors to the state of the filter; SI u
                             +tube_bias, +slip, +mount})
       filter_.add_block({first, 1, 1});
     filter_.add_block({iron, 3, 1});
-    for (const int i : {0, 1, 2, 9, 10, 11, 12, 13, 14, 19, 20, 21, 22, 23, 24}) by_air_(i) = 0;
+    // In steep turns the sideslip is no measure of the climb.
+    for (const int i :
+         {0, 1, 2, +vel + 2, +pos + 2, 9, 10, 11, 12, 13, 14, 19, 20, 21, 22, 23, 24, +baro_bias})
+      by_air_(i) = 0;
     all_(tube_scale) = by_air_(tube_scale) = 0;
     by_field_.setZero();
     for (const int i :
@@ -88,9 +91,10 @@ class Navigator {  ///< from samples of sensors to the state of the filter; SI u
     filter_.unit.accel_scale = p.accel_scale_error;
     filter_.gravity_mps2 = p.gravity;
     filter_.wind_shear = p.wind_shear;
-    // An error that is being learnt after a fault may go on changing.
+    filter_.sideslip_gust = p.sideslip_gust;
+    // An error may go on changing for a time after its fault.
     const auto walk = [&](const Aid& aid, double usual, double faulty) {
-      return aid.faulty(time_s_) ? std::hypot(usual, faulty) : usual;
+      return std::hypot(usual, faulty * aid.changing(time_s_));
     };
     set(gyro_bias, p.gyro_bias_std, walk(health_.gyro, p.gyro_bias_walk, 1e-3));
     set(accel_bias, p.accel_bias_std, walk(health_.accel, p.accel_bias_walk, 0.05));
@@ -111,10 +115,10 @@ class Navigator {  ///< from samples of sensors to the state of the filter; SI u
     set(fix_vel + 2, speed * climb_ratio * fix_std_.z(), walk(health_.velocity, 0, 0.5), p.gnss_speed_time);
     set(delay, p.gnss_delay_std, 1e-4);
     set(baro_bias, 100, walk(health_.baro, p.baro_walk * slow(health_.baro, 0), 1));
-    set(port, p.static_port_std, p.static_port_walk);
+    set(port, p.static_port_std, p.static_port_walk * slow(health_.baro, 0.25));
     set(iron, p.hard_iron_std, p.hard_iron_walk * slow(health_.heading, 0));
     set(tube_scale, p.pitot_scale_std, 0);
-    set(tube_bias, 0, walk(health_.pitot, 0, 2));
+    set(tube_bias, 0, walk(health_.pitot, 0, 20));
     filter_.renew();
   }
 
@@ -190,14 +194,14 @@ class Navigator {  ///< from samples of sensors to the state of the filter; SI u
     if (resting_ && time_s_ - rest_fused_s_ > 0.05) rest();
     update_airborne(p);
     if (airborne_ && seen_.yaw && time_s_ - sideslip_s_ > 0.1 - 1e-4) sideslip(p);
-    // Before the wind is found, and after saturation, the estimate is off for other reasons.
-    if (time_s_ - airborne_since_s_ < settled_s || time_s_ - clipped_s_ < settled_s) {
+    // Before the wind is found, and after saturation or a gap, the estimate is off for other reasons.
+    if (time_s_ - std::max({airborne_since_s_, clipped_s_, aligned_s_}) < settled_s) {
       filter_.begin_jumps();
       if (time_s_ - clipped_s_ < settled_s) heading_.clear();
     }
     if (airborne_ && time_s_ - judged_s_ > 0.1) {
       judged_s_ = time_s_;
-      found(filter_.find_fault(fault_ratio), p);
+      found(filter_.find_fault(fault_ratio, !health_.rates.noisy() && !health_.forces.noisy()), p);
     }
     if (time_s_ - tuned_s_ > 1) {
       tuned_s_ = time_s_;
@@ -300,8 +304,8 @@ class Navigator {  ///< from samples of sensors to the state of the filter; SI u
 
   /// The sensor of a fault is named for as long as its error exceeds what its model expects.
   void found(const Fault& fault, const Params& p) {
-    if (fault.state < 0) return;
-    if (fault.state == theta + 2) filter_.inflate(mount, 1, 2 * fault.size);
+    if (fault.first < 0) return;
+    if (fault.first == theta + 2) filter_.inflate(mount, 1, 2 * fault.size);
     for (const auto& [first, count, aid] : {std::tuple{+fix_pos, 2, &health_.horizontal},
                                             {fix_pos + 2, 1, &health_.height},
                                             {+fix_vel, 3, &health_.velocity},
@@ -310,7 +314,7 @@ class Navigator {  ///< from samples of sensors to the state of the filter; SI u
                                             {+gyro_bias, 3, &health_.gyro},
                                             {+accel_bias, 3, &health_.accel},
                                             {theta + 2, 1, &health_.heading}})
-      if (fault.state >= first && fault.state < first + count) aid->faulty_s = time_s_;
+      if (fault.first >= first && fault.first < first + count) aid->fault(time_s_, fault.ramp);
     tune(p);
   }
 

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // States, measurement rows and prediction of the second formulation: rows and transition against central
-// finite differences of an integration of its own. Updates and faults have files of their own.
+// finite differences of an integration of its own.
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <numbers>
-#include <stdexcept>
 
 #include "bench/second_filter/sensors.hpp"
 #include "fulmar/random.hpp"
@@ -237,24 +235,24 @@ TEST_CASE("baro_height: row, and pressure of the standard atmosphere with a stat
       doctest::Approx(1 / (standard_air(499.5).pressure_pa - standard_air(500.5).pressure_pa)).epsilon(1e-5));
 }
 
-TEST_CASE("tube_airspeed, coordinated, zero_velocity and zero_rate: value and row") {
+TEST_CASE("tube_pressure, coordinated, zero_velocity and zero_rate: value and row") {
   Random r(4);
   for (int trial = 0; trial < 5; ++trial) {
     double t = 0;
     const Filter f = flown(r, &t);
     const Nominal& n = f.state();
-    const auto speed = [](const Nominal& x) {
+    const auto pressure = [](const Nominal& x) {  // of an airspeed that reads 4 % high
       const Vector3d u(x.x(vel) - x.x(wind) - x.x(gust), x.x(vel + 1) - x.x(wind + 1) - x.x(gust + 1),
                        x.x(vel + 2));
-      return (1 + x.x(tube_scale)) * u.norm() + x.x(tube_bias);
+      return 0.5 * 1.1 * std::pow(1.04 * (1 + x.x(tube_scale)) * u.norm(), 2) + x.x(tube_bias);
     };
     const auto side = [](const Nominal& x) {
       const Vector3d u(x.x(vel) - x.x(wind) - x.x(gust), x.x(vel + 1) - x.x(wind + 1) - x.x(gust + 1),
                        x.x(vel + 2));
       return (x.q_nb.conjugate() * u).y() - x.x(slip);
     };
-    CHECK(tube_airspeed(f, 15).innovation == doctest::Approx(15 - speed(n)));
-    check_row(tube_airspeed(f, 15).H, differences(n, speed), 1e-6, 0);
+    CHECK(tube_pressure(f, 150, 1.1, 1.04).innovation == doctest::Approx(150 - pressure(n)));
+    check_row(tube_pressure(f, 150, 1.1, 1.04).H, differences(n, pressure), 1e-6, 0);
     CHECK(coordinated(f).innovation == doctest::Approx(-side(n)));
     check_row(coordinated(f).H, differences(n, side), 1e-6, 0);
     for (int axis = 0; axis < 3; ++axis) {
@@ -354,34 +352,6 @@ TEST_CASE("filter: the state is that of an integration, and its past that of the
     CHECK_FALSE(f.at(f.time_s() - 2).known);
     CHECK(f.at(f.time_s() + 1).known);
   }
-}
-
-TEST_CASE("filter: noise grows with time at any rate of the unit; a slow error keeps its variance") {
-  for (const double rate_hz : {50.0, 400.0}) {
-    CAPTURE(rate_hz);
-    Filter f;
-    add_blocks(f);
-    f.unit = {.gyro = 1e-3, .accel = 0.05, .gyro_scale = 2e-3, .accel_scale = 0.01, .motion = 4};
-    f.reset({}, Eigen::Matrix<double, 15, 1>::Zero(), 0);
-    f.wind_shear = 0.02;
-    f.inflate(gust, 2, std::sqrt(8.0));  // to a standard deviation of 3
-    for (int k = 0; k < 2 * rate_hz; ++k) f.predict({0, 0, 0.5}, {0, 0, -2 * g}, 1 / rate_hz);
-    CHECK(1e3 * f.std(theta + 2) == doctest::Approx(std::sqrt(2 * (1 + 4 * 2 * 2 * 0.25))).epsilon(1e-6));
-    const double load = 4 * 0.01 * 0.01 * g * g;
-    CHECK(f.std(vel + 2) == doctest::Approx(std::sqrt((0.05 * 0.05 + load) * 2)).epsilon(1e-6));
-    CHECK(f.take_motion_variance() == doctest::Approx(2 * load));
-    CHECK(f.take_motion_variance() == 0);
-    const double climbed = std::pow(0.02 * g, 2) * 8 / 3;  // the integral of (0.02 g t)^2
-    CHECK((f.covariance()(wind, wind) - 25) / (1e-4 * 2 + climbed) == doctest::Approx(1).epsilon(0.02));
-    CHECK(f.std(fix_pos) == doctest::Approx(2));
-    CHECK(f.std(gust) == doctest::Approx(std::sqrt(1 + 8 * std::exp(-2 * 2 / 15.0))));
-  }
-}
-
-TEST_CASE("navigator: a component can append four states to its filter") {
-  Navigator navigator;
-  for (int i = 0; i < 4; ++i) CHECK_NOTHROW(navigator.filter().append(0.1, 0.01));
-  CHECK_THROWS_AS(navigator.filter().append(0.1, 0.01), std::length_error);
 }
 
 }  // namespace second_filter_test

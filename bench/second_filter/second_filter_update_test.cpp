@@ -151,6 +151,7 @@ TEST_CASE(
   CHECK(learn(1, 1, true).white == doctest::Approx(1).epsilon(0.25));  // outliers count for little
   CHECK(learn(10, 1).white < 17);                                      // bounded: 4 standard deviations
   CHECK(learn(0.01, 0.01).white > 0.24);
+  CHECK(learn(0.01, 0.01).slow == doctest::Approx(std::pow(0.5, 6)).epsilon(0.1));  // far lower
 }
 
 TEST_CASE("level: a variance that is part of an innovation is learnt from it") {
@@ -162,6 +163,26 @@ TEST_CASE("level: a variance that is part of an innovation is learnt from it") {
     if (k >= 10000) mean += log_level / 30000;
   }
   CHECK(std::exp(mean) == doctest::Approx(4).epsilon(0.1));
+}
+
+TEST_CASE("aid: after a fault the change of its error fades, in 5 s of a jump and in 30 s of a drift") {
+  for (const bool ramp : {false, true}) {
+    CAPTURE(ramp);
+    const double time_s = ramp ? 30 : 5;
+    Aid aid;
+    CHECK(aid.changing(1000) == 0);
+    CHECK_FALSE(aid.faulty(1000));
+    aid.fault(1000, ramp);
+    CHECK(aid.changing(1000) == doctest::Approx(1));
+    CHECK(aid.changing(1000 + time_s) == doctest::Approx(1 / 2.718281828));
+    double integral = 0;  // of the variance of a walk, by the midpoints
+    for (int k = 0; k < 6000; ++k) integral += 0.01 * std::pow(aid.changing(1000 + 0.01 * (k + 0.5)), 2);
+    CHECK(integral == doctest::Approx(0.5 * time_s * (1 - std::exp(-2 * 60 / time_s))).epsilon(1e-4));
+    CHECK(aid.faulty(1029));
+    CHECK_FALSE(aid.faulty(1031));
+    aid.fault(2000, !ramp);  // another one
+    CHECK(aid.changing(2000 + time_s) == doctest::Approx(std::exp(-time_s / (35 - time_s))));
+  }
 }
 
 }  // namespace second_filter_update_test

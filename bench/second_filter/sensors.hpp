@@ -41,12 +41,12 @@ inline void Navigator::pitot(double pressure_pa, const Params& p) {
   pitot_mps_ = pitot_s_ == never ? Va : pitot_mps_ + (Va - pitot_mps_) * (1 - std::exp(-dt / 0.2));
   pitot_s_ = time_s_;
   if (!aligned() || !airborne_ || health_.pitot.stuck(airborne_)) return;
-  const double noise = p.pitot_noise / (air_.density_kgm3 * std::max(Va, 0.5 * p.min_airspeed));
+  const double per_speed = air_.density_kgm3 * filter_.state().through_air_n().norm(),  // Pa per m/s
+      by_speed = p.pitot_speed_std * per_speed, late = late_mps_ * per_speed;
   // A late sample is that of another airspeed: in a launch by several m/s.
   const double variance =
-      (noise * noise + p.pitot_speed_std * p.pitot_speed_std) * health_.pitot.level.white() +
-      late_mps_ * late_mps_;
-  const Scalar z = tube_airspeed(filter_, Va);
+      (p.pitot_noise * p.pitot_noise + by_speed * by_speed) * health_.pitot.level.white() + late * late;
+  const Scalar z = tube_pressure(filter_, pressure_pa, air_.density_kgm3, 1 / p.pitot_scale);
   const Fused fused = filter_.fuse(z, variance, p.gate, all_, health_.pitot.insists(time_s_));
   health_.pitot.record(fused, time_s_, true);
   health_.refused += !fused.accepted;
@@ -75,6 +75,8 @@ inline void Navigator::mag(const Vector3d& field_b, const Params& p) {
   if (health_.heading.stuck(airborne_)) return;
   if (strength_ == 0) strength_ = strength;
   if (!seen_.yaw) yaw_from_field(field_b);
+  constexpr double tilted = 0.05;  // rad, standard deviation: a wrong tilt turns the yaw that a field shows
+  if (std::max(filter_.std(theta), filter_.std(theta + 1)) > tilted) return;
   const Vector3d m_n = field_n_.normalized();
   const double variance = p.mag_noise * p.mag_noise * health_.heading.level.white();
   Vector3d ratio;

@@ -32,7 +32,7 @@ enum State : int {
   iron = 28,        ///< share of the Earth's field, body axes: hard iron
   strength = 31,    ///< share by which the magnetometer reads high
   tube_scale = 32,  ///< share: measured airspeed over true airspeed minus 1
-  tube_bias = 33,   ///< m/s
+  tube_bias = 33,   ///< Pa
   slip = 34,        ///< m/s: side component of the air velocity, to which the aircraft has not yet turned
   mount = 35,       ///< rad: turn of the magnetometer about the body z axis
   appended = 36,    ///< of components with more sensors

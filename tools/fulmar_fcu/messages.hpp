@@ -8,27 +8,31 @@ namespace fulmar::fcu_messages {
 inline constexpr MessageText acknowledgement_timeout{
     "fcu.acknowledgement_timeout",
     {"port", "action"},
-    "{port} does not respond: it did not acknowledge {action} within 3 s. The result is unknown."};
+    "{port} does not respond: it did not acknowledge {action} within 3 s. Check the result with 'fulmar fcu "
+    "status', then try again."};
 inline constexpr MessageText action_not_acknowledged{
     "fcu.action_not_acknowledged",
     {"port", "action"},
-    "{port} does not respond: it did not acknowledge {action}."};
+    "{port} does not respond: it did not acknowledge {action}. Check the line to it, then try again."};
 inline constexpr MessageText action_refused{
     "fcu.action_refused", {"action", "reason"}, "The controller rejected {action}{reason}"};
 inline constexpr MessageText action_refused_armed{
-    "fcu.action_refused_armed", {"action"}, "The controller rejected {action}: it is armed."};
+    "fcu.action_refused_armed",
+    {"action"},
+    "The controller rejected {action}: it is armed. Disarm it, then try again."};
 inline constexpr MessageText aircraft_armed{
     "fcu.aircraft_armed", {"action"}, "The aircraft is armed: disarm it before {action}."};
 inline constexpr MessageText aircraft_in_motion{
     "fcu.aircraft_in_motion",
     {"acceleration", "rotation"},
-    "it moves ({acceleration} m/s2, {rotation} deg/s rms): put it down, and check again"};
+    "the aircraft moves ({acceleration} m/s2, {rotation} deg/s rms): put it down, and check again"};
 inline constexpr MessageText airspeed_at_rest{
     "fcu.airspeed_at_rest",
     {"found"},
     "{found} m/s at rest: cover the pitot, 'fulmar fcu calibrate airspeed'; in wind this value is valid"};
 inline constexpr MessageText airspeed_sensor_silent{
-    "fcu.airspeed_sensor_silent", "no sensor sends data: the pitot is unplugged, or there is none"};
+    "fcu.airspeed_sensor_silent",
+    "no sensor sends data: check the plug of the pitot; without a pitot this is valid"};
 inline constexpr MessageText arm_channel_invalid{
     "fcu.arm_channel_invalid",
     {"channel", "last"},
@@ -37,13 +41,14 @@ inline constexpr MessageText arm_switch_on{"fcu.arm_switch_on", "is on: switch i
 inline constexpr MessageText armed_during_test{
     "fcu.armed_during_test",
     "The aircraft is now ARMED: the test has stopped. Disarm it, and keep the arm switch off."};
-inline constexpr MessageText arming_blocked{"fcu.arming_blocked", "it does not arm"};
+inline constexpr MessageText arming_blocked{"fcu.arming_blocked",
+                                            "the controller does not arm until this is corrected"};
 inline constexpr MessageText attitude_not_finite{
     "fcu.attitude_not_finite", "the estimate of the controller is no longer a number: power-cycle it"};
 inline constexpr MessageText axes_unequal{
     "fcu.axes_unequal",
     {"factor"},
-    "No calibration: the axes would differ by a factor of {factor}. Too much iron is near the sensor."};
+    "No calibration: the axes would differ by a factor of {factor}. Move away from iron, and start again."};
 inline constexpr MessageText barometer_silent{"fcu.barometer_silent", "silent: power-cycle the controller"};
 inline constexpr MessageText battery_low{
     "fcu.battery_low",
@@ -74,39 +79,42 @@ inline constexpr MessageText command_without_output{
     "No output follows the {command}: set a gain in SEC_MIXER_{row}_*."};
 inline constexpr MessageText commands_not_accepted{
     "fcu.commands_not_accepted",
-    "The controller does not accept commands from this computer. The link may lose them, or OFFBOARD_TIMEOUT "
-    "may be too short."};
+    "The controller does not accept commands from this computer. Check the link with 'fulmar fcu check', or "
+    "increase OFFBOARD_TIMEOUT."};
 inline constexpr MessageText confirmation_required{
     "fcu.confirmation_required",
     {"flag"},
     "The confirmation requires a terminal: without one, add {flag}. Nothing was changed."};
-inline constexpr MessageText controller_armed{"fcu.controller_armed",
-                                              "it is ARMED: disarm it, and stay away from the propeller"};
+inline constexpr MessageText controller_armed{
+    "fcu.controller_armed", "the controller is ARMED: disarm it, and stay away from the propeller"};
 inline constexpr MessageText coverage_low{"fcu.coverage_low",
                                           {"coverage"},
                                           "No calibration: the samples cover {coverage} of all directions, "
                                           "75 % are needed. Turn the aircraft in all directions."};
-inline constexpr MessageText failsafe_in_control{"fcu.failsafe_in_control",
-                                                 "none: failsafe, motor off and surfaces centred"};
+inline constexpr MessageText failsafe_in_control{
+    "fcu.failsafe_in_control", "none: failsafe, motor off and surfaces centred. Switch the transmitter on"};
 inline constexpr MessageText field_implausible{
     "fcu.field_implausible",
     {"found"},
     "No calibration: a field of {found} uT is not the field of the Earth, 22 to 67 uT. Check the sensor, and "
     "that its unit is tesla."};
 inline constexpr MessageText file_exists{
-    "fcu.file_exists", {"file"}, "{file} exists already: choose another name, or add --replace."};
-inline constexpr MessageText file_not_writable{
-    "fcu.file_not_writable",
-    {"file"},
-    "{file} cannot be written: the folder does not exist, the permission is missing, or the disk is full."};
-inline constexpr MessageText file_parameter_unknown{"fcu.file_parameter_unknown",
-                                                    {"parameter", "hint"},
-                                                    "the controller has no parameter '{parameter}'.{hint}"};
+    "fcu.file_exists", {"file"}, "{file} exists already. Choose another name, or add --replace."};
+inline constexpr MessageText file_not_writable{"fcu.file_not_writable",
+                                               {"file"},
+                                               "{file} cannot be written. Check that its folder exists, that "
+                                               "you have the permission, and that the disk is not full."};
+inline constexpr MessageText file_parameter_unknown{
+    "fcu.file_parameter_unknown",
+    {"parameter", "hint"},
+    "the controller has no parameter '{parameter}': correct the name, or remove the line.{hint}"};
 inline constexpr MessageText file_write_failed{
-    "fcu.file_write_failed", {"file", "reason"}, "{file} cannot be written: {reason}."};
+    "fcu.file_write_failed",
+    {"file", "reason"},
+    "{file} cannot be written: {reason}. Choose another name or folder."};
 inline constexpr MessageText finite_number_expected{"fcu.finite_number_expected",
                                                     {"parameter", "found"},
-                                                    "{parameter} must be a finite number, not '{found}'."};
+                                                    "{parameter} cannot be '{found}': give a finite number."};
 inline constexpr MessageText firmware_tested{"fcu.firmware_tested", {"version"}, "{version}, as tried"};
 inline constexpr MessageText firmware_too_old{
     "fcu.firmware_too_old",
@@ -136,38 +144,46 @@ inline constexpr MessageText fix_inaccurate{"fcu.fix_inaccurate",
 inline constexpr MessageText fix_missing{
     "fcu.fix_missing", {"fix", "satellites"}, "{fix}, {satellites} satellites: wait under open sky"};
 inline constexpr MessageText frame_loss_high{"fcu.frame_loss_high",
-                                             "the cable is faulty, or the baud rate is too low"};
+                                             "check the cable, and increase the baud rate of both ends"};
 inline constexpr MessageText gravity_implausible{
     "fcu.gravity_implausible",
     {"found"},
     "gravity is {found} m/s2 at rest, not 9.81: 'fulmar fcu calibrate imu'"};
-inline constexpr MessageText heading_sensor_silent{"fcu.heading_sensor_silent",
-                                                   "silent: the heading comes from GNSS alone"};
+inline constexpr MessageText heading_sensor_silent{
+    "fcu.heading_sensor_silent", "silent: check its plug. Without it the heading comes from GNSS alone"};
 inline constexpr MessageText imu_calibrated{
     "fcu.imu_calibrated", {"gravity", "rotation"}, "calibrated; {gravity} m/s2, {rotation} deg/s"};
 inline constexpr MessageText imu_not_calibrated{
     "fcu.imu_not_calibrated",
     "not calibrated: lay it level, 'fulmar fcu calibrate imu', then 'params write'"};
 inline constexpr MessageText imu_rate_low{
-    "fcu.imu_rate_low", {"rate"}, "{rate} Hz of 400: the line loses frames or is too slow"};
+    "fcu.imu_rate_low",
+    {"rate"},
+    "{rate} Hz of 400: the line loses frames or is too slow. Check the cable and the baud rate"};
 inline constexpr MessageText imu_rate_too_low{
-    "fcu.imu_rate_too_low", {"rate"}, "{rate} Hz: the loop requires 400"};
+    "fcu.imu_rate_too_low",
+    {"rate"},
+    "{rate} Hz, but the loop requires 400: check the cable and the baud rate"};
 inline constexpr MessageText inertial_samples_missing{
     "fcu.inertial_samples_missing",
     {"port"},
-    "{port} sends no inertial samples: a reboot cannot be detected. Power-cycle it."};
-inline constexpr MessageText line_load_high{"fcu.line_load_high",
-                                            "set 921600 on a UART; USB ignores the baud rate"};
+    "{port} sends no inertial samples, so a reboot cannot be detected. Power-cycle it."};
+inline constexpr MessageText line_load_high{
+    "fcu.line_load_high", "increase the baud rate of a UART to 921600; USB ignores the baud rate"};
 inline constexpr MessageText mag_matrix_invalid{
-    "fcu.mag_matrix_invalid", "The MAG_CAL_A parameters are not a valid matrix: set the identity first."};
+    "fcu.mag_matrix_invalid",
+    "The MAG_CAL_A parameters are not a valid matrix. Set the identity with 'fulmar fcu params set': 1 on "
+    "the diagonal, 0 elsewhere."};
 inline constexpr MessageText mag_parameters_not_reported{
     "fcu.mag_parameters_not_reported",
     {"port"},
-    "{port} does not report its MAG_ parameters: the calibration did not start."};
+    "{port} does not report its MAG_ parameters, so the calibration did not start. Check the line to it, "
+    "then try again."};
 inline constexpr MessageText magnetometer_not_calibrated{
     "fcu.magnetometer_not_calibrated", "not calibrated: 'fulmar fcu calibrate mag', then 'params write'"};
 inline constexpr MessageText magnetometer_silent{
-    "fcu.magnetometer_silent", "The magnetometer sends no data: it is absent, or it did not start."};
+    "fcu.magnetometer_silent",
+    "The magnetometer sends no data. Check its plug, then power-cycle the controller."};
 inline constexpr MessageText mavlink_version_unsupported{
     "fcu.mavlink_version_unsupported",
     {"port"},
@@ -185,16 +201,16 @@ inline constexpr MessageText mixers_differ{
     "fcu.mixers_differ",
     {"output", "command", "pilot", "computer", "cause"},
     "Output {output} answers the {command} of the pilot by {pilot} and of the computer by {computer}: "
-    "{cause}SECONDARY_MIXER 255 makes them equal."};
+    "{cause}Set SECONDARY_MIXER to 255 to make them equal."};
 inline constexpr MessageText multirotor_configured{
     "fcu.multirotor_configured",
     "FIXED_WING is 0, a multirotor: 'fulmar fcu params set FIXED_WING 1', write, power-cycle"};
 inline constexpr MessageText number_expected{
-    "fcu.number_expected", {"found"}, "expected a number, found {found}"};
+    "fcu.number_expected", {"found"}, "expected a number; found {found}"};
 inline constexpr MessageText number_too_large{
     "fcu.number_too_large",
     {"found", "parameter"},
-    "{found} is outside the range of {parameter}: a number of 32 bits, up to 3.4e38."};
+    "{found} is outside the range of {parameter}, a number of 32 bits: give -3.4e38 to 3.4e38."};
 inline constexpr MessageText output_kind_wrong{"fcu.output_kind_wrong",
                                                {"output", "command", "kind", "wanted"},
                                                "Output {output} follows the {command} but is set up as a "
@@ -204,15 +220,16 @@ inline constexpr MessageText output_moved{
 inline constexpr MessageText output_not_moved{
     "fcu.output_not_moved",
     {"output", "position"},
-    "Output {output} did not follow: the controller reports that it stayed at {position}."};
+    "Output {output} did not follow: the controller reports that it stayed at {position}. Check the mixer "
+    "with 'fulmar fcu check'."};
 inline constexpr MessageText output_without_command{"fcu.output_without_command",
                                                     "follows none of the four commands"};
-inline constexpr MessageText outputs_frozen{"fcu.outputs_frozen",
-                                            "none: without radio frames the outputs are frozen"};
-inline constexpr MessageText override_switch_missing{
-    "fcu.override_switch_missing",
-    {"channel", "last"},
-    "no override switch: RC_ATT_OVRD_CHN is {channel}: switches may be on 4 to RC_NUM_CHN - 1 ({last})"};
+inline constexpr MessageText outputs_frozen{
+    "fcu.outputs_frozen", "none: without radio frames the outputs are frozen. Switch the transmitter on"};
+inline constexpr MessageText override_switch_missing{"fcu.override_switch_missing",
+                                                     {"channel", "last"},
+                                                     "no override switch: RC_ATT_OVRD_CHN is {channel}. Set "
+                                                     "it to a channel from 4 to RC_NUM_CHN - 1 ({last})"};
 inline constexpr MessageText override_switch_off{
     "fcu.override_switch_off",
     "off: the computer controls the aircraft as soon as it sends; begin with the pilot"};
@@ -227,60 +244,72 @@ inline constexpr MessageText param_file_unversioned{
     "Parameters of a ROSflight flight controller. Load: fulmar fcu params load FILE."};
 inline constexpr MessageText param_set{
     "fcu.param_set", {"name", "from", "to"}, "{name}: {from} -> {to}, read back."};
-inline constexpr MessageText parameter_duplicate{"fcu.parameter_duplicate",
-                                                 {"parameter", "line"},
-                                                 "{parameter} is in this file twice, first in line {line}"};
+inline constexpr MessageText parameter_duplicate{
+    "fcu.parameter_duplicate",
+    {"parameter", "line"},
+    "{parameter} is in this file twice, first in line {line}. Remove one of them"};
 inline constexpr MessageText parameter_key_missing{
-    "fcu.parameter_key_missing", {"key"}, "this parameter has no '{key}': it requires {{name, type, value}"};
+    "fcu.parameter_key_missing",
+    {"key"},
+    "this parameter has no '{key}': write {{name: NAME, type: TYPE, value: VALUE}"};
 inline constexpr MessageText parameter_list_expected{
     "fcu.parameter_list_expected",
     {"found"},
-    "expected 'NAME: value' lines, or a list of {{name, type, value}, found {found}"};
+    "expected lines 'NAME: value', or a list of {{name, type, value}; found {found}"};
 inline constexpr MessageText parameter_list_hint{"fcu.parameter_list_hint",
                                                  " 'fulmar fcu params list' prints all."};
 inline constexpr MessageText parameter_name_invalid{
     "fcu.parameter_name_invalid",
     {"parameter"},
-    "'{parameter}' is not a parameter name: a name has 1 to 16 characters."};
+    "'{parameter}' is not the name of a parameter: give 1 to 16 characters."};
 inline constexpr MessageText parameter_request_unanswered{
     "fcu.parameter_request_unanswered",
     {"port"},
-    "{port} does not respond to the request for its parameters: check the line to it."};
+    "{port} does not respond to the request for its parameters. Check the line to it, then try again."};
 inline constexpr MessageText parameter_suggestion{
     "fcu.parameter_suggestion", {"suggestion"}, " Did you mean {suggestion}?"};
 inline constexpr MessageText parameter_type_invalid{
-    "fcu.parameter_type_invalid", {"found"}, "type is 6 (whole number) or 9 (number), found {found}"};
+    "fcu.parameter_type_invalid",
+    {"found"},
+    "expected the type 6 (whole number) or 9 (number); found {found}"};
 inline constexpr MessageText parameter_type_mismatch{
-    "fcu.parameter_type_mismatch", {"parameter", "type"}, "{parameter} is of type {type} in the controller."};
+    "fcu.parameter_type_mismatch",
+    {"parameter", "type"},
+    "{parameter} is of type {type} in the controller. Write this type here."};
 inline constexpr MessageText parameter_unknown{
     "fcu.parameter_unknown", {"parameter", "hint"}, "The controller has no parameter '{parameter}'.{hint}"};
 inline constexpr MessageText parameters_incomplete{
     "fcu.parameters_incomplete",
     {"received", "expected", "port"},
-    "Only {received} of {expected} parameters came from {port}: the link loses too much data; check it with "
+    "Only {received} of {expected} parameters came from {port}: the link loses too much data. Check it with "
     "'fulmar fcu check'."};
 inline constexpr MessageText parameters_not_reported{
     "fcu.parameters_not_reported",
     {"port"},
-    "{port} does not report its parameters: the calibration did not start."};
+    "{port} does not report its parameters, so the calibration did not start. Check the line to it, then try "
+    "again."};
 inline constexpr MessageText parameters_not_taken{
     "fcu.parameters_not_taken",
     {"failed", "total", "first"},
-    "{failed} of {total} did not take their values; the first is {first}."};
+    "{failed} of {total} did not take their values; the first is {first}. Load the file again."};
 inline constexpr MessageText pattern_unmatched{
-    "fcu.pattern_unmatched", {"count", "pattern"}, "None of the {count} parameters matches '{pattern}'."};
+    "fcu.pattern_unmatched",
+    {"count", "pattern"},
+    "None of the {count} parameters matches '{pattern}'. 'fulmar fcu params list' prints all."};
 inline constexpr MessageText pilot_override_active{
     "fcu.pilot_override_active",
     {"overrides"},
     "The pilot controls the outputs ({overrides}). Switch the override off and leave the sticks in the "
     "middle, then try again."};
 inline constexpr MessageText pilot_took_over{
-    "fcu.pilot_took_over", {"overrides"}, "The pilot took over ({overrides}): the test has stopped."};
+    "fcu.pilot_took_over",
+    {"overrides"},
+    "The pilot took over ({overrides}): the test has stopped. Switch the override off, then try again."};
 inline constexpr MessageText pitot_zero_implausible{
     "fcu.pitot_zero_implausible",
     {"found"},
-    "its zero, DIFF_PRESS_BIAS, is {found} Pa, as in wind or in the air: 'run' does not use it. Cover the "
-    "pitot, 'fulmar fcu calibrate airspeed'"};
+    "the zero of the airspeed sensor, DIFF_PRESS_BIAS, is {found} Pa, as in wind or in the air: 'run' does "
+    "not use it. Cover the pitot, 'fulmar fcu calibrate airspeed'"};
 inline constexpr MessageText port_silent{
     "fcu.port_silent",
     {"port"},
@@ -289,8 +318,8 @@ inline constexpr MessageText port_silent{
 inline constexpr MessageText protocol_unknown{
     "fcu.protocol_unknown",
     {"port", "bytes"},
-    "{port} sends data ({bytes} bytes), but not as a ROSflight flight controller does. The --baud is wrong, "
-    "or another device is on this port."};
+    "{port} sends data ({bytes} bytes), but not as a ROSflight flight controller does. Correct --baud, or "
+    "name another --port."};
 inline constexpr MessageText radio_channel_map{
     "fcu.radio_channel_map",
     {"roll", "pitch", "throttle", "yaw", "attitude_override", "throttle_override", "arm"},
@@ -310,12 +339,15 @@ inline constexpr MessageText radio_rate_low{
 inline constexpr MessageText readback_failed{
     "fcu.readback_failed", {"port"}, "{port} did not respond when the parameters were read back: try again."};
 inline constexpr MessageText real_number_expected{
-    "fcu.real_number_expected", {"parameter", "found"}, "{parameter} is a number, not '{found}'."};
+    "fcu.real_number_expected",
+    {"parameter", "found"},
+    "{parameter} cannot be '{found}': give a number, such as 0.5."};
 inline constexpr MessageText reboot_not_done{
     "fcu.reboot_not_done",
     "the controller acknowledged but did not restart: firmware 2.0 cannot restart on H7 boards, and its "
     "outputs may now be off. Power-cycle it"};
-inline constexpr MessageText reboot_refused{"fcu.reboot_refused", "The controller rejected the reboot."};
+inline constexpr MessageText reboot_refused{"fcu.reboot_refused",
+                                            "The controller rejected the reboot. Power-cycle it."};
 inline constexpr MessageText reboot_unanswered{
     "fcu.reboot_unanswered",
     {"controller"},
@@ -324,7 +356,8 @@ inline constexpr MessageText receiver_silent{"fcu.receiver_silent", "silent: che
 inline constexpr MessageText restored_values_unknown{
     "fcu.restored_values_unknown",
     {"fault"},
-    "{fault} It could not be read whether the former values are restored."};
+    "{fault} The controller did not report whether the former values are restored. Compare them with the "
+    "list above."};
 inline constexpr MessageText reversal_in_file{
     "fcu.reversal_in_file",
     {"surface", "parameter"},
@@ -337,46 +370,59 @@ inline constexpr MessageText rosflight_status_missing{
     "{port} sends MAVLink ({frames} frames), but no status of ROSflight 2. Flash ROSflight firmware 2, or "
     "choose the right port."};
 inline constexpr MessageText rotation_at_rest{
-    "fcu.rotation_at_rest", {"found"}, "it turns at {found} deg/s at rest: 'fulmar fcu calibrate imu'"};
-inline constexpr MessageText round_trip_excessive{"fcu.round_trip_excessive", "too slow for flight"};
-inline constexpr MessageText round_trip_long{"fcu.round_trip_long", "more than 10 ms"};
+    "fcu.rotation_at_rest", {"found"}, "the gyro reads {found} deg/s at rest: 'fulmar fcu calibrate imu'"};
+inline constexpr MessageText round_trip_excessive{"fcu.round_trip_excessive",
+                                                  "too slow for flight: increase the baud rate, or use USB"};
+inline constexpr MessageText round_trip_long{"fcu.round_trip_long",
+                                             "more than 10 ms: increase the baud rate, or use USB"};
 inline constexpr MessageText round_trip_missing{"fcu.round_trip_missing",
-                                                "no answer to 20 requests within 100 ms: the line to the "
-                                                "controller is too slow for flight, or it is cut"};
+                                                "no answer to 20 requests within 100 ms, too slow for "
+                                                "flight: check the cable, and the baud rate of both ends"};
 inline constexpr MessageText sample_line_invalid{
-    "fcu.sample_line_invalid", {"file", "line"}, "{file}:{line}: expected three numbers in tesla: x, y, z."};
-inline constexpr MessageText sampling_timeout{"fcu.sampling_timeout",
-                                              "The magnetometer gave no new sample for two minutes. The "
-                                              "calibration has stopped, and the parameters are unchanged."};
+    "fcu.sample_line_invalid",
+    {"file", "line"},
+    "{file}:{line}: expected three numbers in tesla, x,y,z. Correct or delete the line."};
+inline constexpr MessageText sampling_timeout{
+    "fcu.sampling_timeout",
+    "The magnetometer gave no new sample for two minutes, so the calibration has stopped. The parameters are "
+    "unchanged; power-cycle the controller, then try again."};
 inline constexpr MessageText sensors_not_started{
     "fcu.sensors_not_started",
     {"count"},
     "{count} did not start: 'fulmar fcu status' lists the silent ones; power-cycle it"};
-inline constexpr MessageText set_not_confirmed{
-    "fcu.set_not_confirmed",
-    {"port", "parameter"},
-    "{port} does not respond: it is unknown whether {parameter} was set."};
+inline constexpr MessageText set_not_confirmed{"fcu.set_not_confirmed",
+                                               {"port", "parameter"},
+                                               "{port} does not respond, so it may not have set {parameter}. "
+                                               "Check it with 'fulmar fcu params get {parameter}'."};
 inline constexpr MessageText set_not_effective{"fcu.set_not_effective",
                                                {"parameter", "wanted", "found"},
-                                               "{parameter} did not take {wanted}: it is still {found}."};
+                                               "{parameter} did not take {wanted}: it is still {found}. "
+                                               "Check that the controller is disarmed, then try again."};
 inline constexpr MessageText side_in_progress{
     "fcu.side_in_progress",
     {"progress", "side", "count"},
     "{progress}Now {side}: turn it once around, slowly: {count} of 12."};
 inline constexpr MessageText status_lost{
-    "fcu.status_lost", {"port"}, "{port} no longer sends its status: it is unplugged, or it reboots."};
+    "fcu.status_lost",
+    {"port"},
+    "{port} no longer sends its status. Check its plug; after a reboot, try again."};
 inline constexpr MessageText status_lost_during_test{
-    "fcu.status_lost_during_test", {"port"}, "{port} no longer sends its status: the test has stopped."};
+    "fcu.status_lost_during_test",
+    {"port"},
+    "{port} no longer sends its status, so the test has stopped. Check its plug, then try again."};
 inline constexpr MessageText stick_channel_invalid{
-    "fcu.stick_channel_invalid", {"last"}, "a stick is on a channel outside of 0 to RC_NUM_CHN - 1 ({last})"};
+    "fcu.stick_channel_invalid",
+    {"last"},
+    "a stick is on a channel outside of 0 to RC_NUM_CHN - 1 ({last}): correct RC_X_CHN, RC_Y_CHN, RC_Z_CHN, "
+    "RC_F_CHN"};
 inline constexpr MessageText stick_override_off{
     "fcu.stick_override_off",
     {"found"},
-    "RC_OVRD_DEV is {found}: the sticks do not take over, only the switch does"};
+    "RC_OVRD_DEV is {found}: the sticks do not take over, only the switch does. Set a value below 1"};
 inline constexpr MessageText sticks_on_one_channel{
     "fcu.sticks_on_one_channel",
     {"channel"},
-    "two sticks are on channel {channel}: look at RC_X_CHN, RC_Y_CHN, RC_Z_CHN, RC_F_CHN"};
+    "two sticks are on channel {channel}, counted from 1: correct RC_X_CHN, RC_Y_CHN, RC_Z_CHN, RC_F_CHN"};
 inline constexpr MessageText subcommand_missing{
     "fcu.subcommand_missing",
     {"command", "choices"},
@@ -409,16 +455,16 @@ inline constexpr MessageText throttle_limited_by_pilot{
     "fcu.throttle_limited_by_pilot",
     "TAKE_MIN_THR is 1: the pilot's stick limits the computer's throttle; set 0, or fly with the stick up"};
 inline constexpr MessageText throttle_stick_up{
-    "fcu.throttle_stick_up", {"found"}, "at {found} %: it must be down to arm"};
+    "fcu.throttle_stick_up", {"found"}, "at {found} %: pull it down to arm"};
 inline constexpr MessageText throttle_switch_missing{
     "fcu.throttle_switch_missing",
     {"channel", "last"},
-    "no throttle override switch: RC_THR_OVRD_CHN is {channel}: switches may be on 4 to RC_NUM_CHN - 1 "
+    "no throttle override switch: RC_THR_OVRD_CHN is {channel}. Set it to a channel from 4 to RC_NUM_CHN - 1 "
     "({last})"};
 inline constexpr MessageText timeout_too_long{
-    "fcu.timeout_too_long", "the aircraft flies on for this time without a computer; 100 is usual"};
+    "fcu.timeout_too_long", "the aircraft flies on for this time without a computer. Set it to 100"};
 inline constexpr MessageText timeout_too_short{"fcu.timeout_too_short",
-                                               "commands may come every 50 ms; set 100"};
+                                               "commands may come every 50 ms. Set it to 100"};
 inline constexpr MessageText trim_too_large{
     "fcu.trim_too_large",
     {"parameter", "found"},
@@ -432,22 +478,25 @@ inline constexpr MessageText value_out_of_range{"fcu.value_out_of_range",
                                                 "{parameter} is {minimum} to {maximum}, not {found}: the "
                                                 "controller does not work with other values."};
 inline constexpr MessageText values_not_restored{
-    "fcu.values_not_restored", {"fault"}, "{fault} The former values could not be restored."};
+    "fcu.values_not_restored",
+    {"fault"},
+    "{fault} The former values could not be restored. Set those listed above."};
 inline constexpr MessageText values_restored{"fcu.values_restored", " The former values are restored."};
-inline constexpr MessageText version_not_reported{
-    "fcu.version_not_reported",
-    {"port"},
-    "{port} sends data, but does not respond. The flight controller is older than ROSflight 2, or the line "
-    "to it is cut."};
-inline constexpr MessageText version_refused{"fcu.version_refused",
-                                             "the controller does not report its version"};
+inline constexpr MessageText version_not_reported{"fcu.version_not_reported",
+                                                  {"port"},
+                                                  "{port} sends data, but does not respond. Check the line "
+                                                  "to it; if it is older than ROSflight 2, flash it."};
+inline constexpr MessageText version_refused{
+    "fcu.version_refused",
+    "The controller does not report its version, though it is disarmed. Power-cycle it."};
 inline constexpr MessageText version_while_armed{
     "fcu.version_while_armed",
-    "the aircraft is armed: the controller reports its version only while disarmed"};
+    "The controller reports its version only while disarmed. Disarm it, then try again."};
 inline constexpr MessageText version_withheld{
     "fcu.version_withheld", "the controller does not report its version, though disarmed: power-cycle it"};
-inline constexpr MessageText whole_number_expected{
-    "fcu.whole_number_expected", {"parameter", "found"}, "{parameter} is a whole number, not '{found}'."};
+inline constexpr MessageText whole_number_expected{"fcu.whole_number_expected",
+                                                   {"parameter", "found"},
+                                                   "{parameter} cannot be '{found}': give a whole number."};
 inline constexpr MessageText whole_number_too_large{
     "fcu.whole_number_too_large",
     {"found", "parameter"},

@@ -2,13 +2,26 @@
 // Remaining charge of the battery, by charge and voltage.
 #pragma once
 #include <algorithm>
+#include <stdexcept>
 
 #include "alarm.hpp"
 #include "fulmar/msg/vehicle_status.hpp"
 #include "limits.hpp"
+#include "messages.hpp"
 #include "motor.hpp"
 
 namespace fulmar::safety {
+
+/// Throws if the limit of an empty battery is above that of a low one.
+inline void refuse_crossed(const BatteryLimits& b) {
+  const auto check = [](const char* name, double empty, const char* low_name, double low) {
+    if (empty > low)
+      throw std::runtime_error(
+          located(name, safety_messages::battery_limits_crossed(empty, low_name, low)).line());
+  };
+  check("battery_empty", b.battery_empty, "battery_low", b.battery_low);
+  check("volt_empty", b.volt_empty, "volt_low", b.volt_low);
+}
 
 class Battery {
  public:

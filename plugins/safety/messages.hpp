@@ -25,8 +25,10 @@ inline constexpr MessageText battery_charged{"safety.battery_charged", "battery 
 inline constexpr MessageText battery_empty{
     "safety.battery_empty", {"voltage"}, "battery empty, {voltage} V. Pilot: land now"};
 inline constexpr MessageText battery_high{"safety.battery_high", "battery not low"};
-inline constexpr MessageText battery_limits_crossed{"safety.battery_limits_crossed",
-                                                    "battery_empty, volt_empty: above battery_low, volt_low"};
+inline constexpr MessageText battery_limits_crossed{
+    "safety.battery_limits_crossed",
+    {"found", "low_name", "low"},
+    "{found} is above {low_name}, {low}: lower it, or raise {low_name}"};
 inline constexpr MessageText battery_low{
     "safety.battery_low", {"voltage"}, "battery low, {voltage} V. Pilot: return and land"};
 inline constexpr MessageText battery_missing{"safety.battery_missing", "battery"};
@@ -64,14 +66,15 @@ inline constexpr MessageText glides{"safety.glides", "glides down"};
 inline constexpr MessageText goes_on{"safety.goes_on", "goes on"};
 inline constexpr MessageText heading_by_course{"safety.heading_by_course", "heading by GNSS course"};
 inline constexpr MessageText height_by_gnss{"safety.height_by_gnss", "height by GNSS"};
-inline constexpr MessageText home_near_fence{"safety.home_near_fence",
-                                             {"north", "east", "distance", "margin"},
-                                             "home, at {north} m north, {east} m east, is {distance} m from "
-                                             "the fence; fence_margin requires {margin} m"};
+inline constexpr MessageText home_near_fence{
+    "safety.home_near_fence",
+    {"north", "east", "distance", "margin"},
+    "home, at {north} m north, {east} m east, is {distance} m from the fence. Move it or a corner, or reduce "
+    "fence_margin, {margin} m"};
 inline constexpr MessageText home_outside_fence{
     "safety.home_outside_fence",
     {"north", "east"},
-    "home, {north} m north, {east} m east, lies outside of the fence"};
+    "home, at {north} m north, {east} m east, is outside the fence. Move home, or the corners around it"};
 inline constexpr MessageText in_order{"safety.in_order", "in order"};
 inline constexpr MessageText inertial_back{"safety.inertial_back",
                                            "gyro and accelerometer agree with the other sensors again"};
@@ -105,7 +108,8 @@ inline constexpr MessageText pitch_off{
     {"angle"},
     "pitch {angle} deg off its command: the elevator does not turn it. Pilot: take over"};
 inline constexpr MessageText pitot_missing{"safety.pitot_missing", "pitot"};
-inline constexpr MessageText places_missing{"safety.places_missing", "there are none; the first is home"};
+inline constexpr MessageText places_missing{"safety.places_missing",
+                                            "the list has no place: add at least one. The first is home"};
 inline constexpr MessageText position_back{"safety.position_back", "position back"};
 inline constexpr MessageText position_lost{
     "safety.position_lost", "position lost: it is reckoned by air data and drifts. Pilot: be ready"};

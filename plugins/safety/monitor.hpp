@@ -122,9 +122,7 @@ inline void Monitor::configure(const Params& p) {
                   safety_messages::home_near_fence(north, east, Fixed{room, 1}, p.fencing.fence_margin.value))
               .line());
   }
-  const BatteryLimits& b = p.battery;
-  if (b.battery_empty > b.battery_low || b.volt_empty > b.volt_low)
-    throw std::runtime_error(safety_messages::battery_limits_crossed().line());
+  refuse_crossed(p.battery);
 }
 
 inline bool Monitor::is_airborne(const Inputs& in, const Params& p) const {

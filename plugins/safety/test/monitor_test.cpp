@@ -131,6 +131,16 @@ TEST_CASE("home has to lie within the fence, with room") {
   }
 }
 
+TEST_CASE("an empty battery has no higher limit than a low one") {
+  Watch charge, volt;
+  charge.params.battery.battery_low.value = 0.05;
+  CHECK(charge.configure() == Status::failed);
+  CHECK(charge.error() == "battery_empty: safety.battery_limits_crossed(0.1, battery_low, 0.05)");
+  volt.params.battery.volt_empty.value = 0.99;
+  CHECK(volt.configure() == Status::failed);
+  CHECK(volt.error().find("volt_empty: safety.battery_limits_crossed(0.99, volt_low, ") == 0);
+}
+
 TEST_CASE("the position: lost after 3 s, waited for, given up after the time; back after 3 s") {
   Watch w;
   w.fly(2);

@@ -16,12 +16,13 @@ const CLI::Validator whole_number(
 
 }  // namespace
 
-std::vector<std::pair<std::string, std::string>> pairs(const std::vector<std::string>& words) {
+std::vector<std::pair<std::string, std::string>> pairs(const std::vector<std::string>& words,
+                                                       const char* option, const char* form) {
   std::vector<std::pair<std::string, std::string>> out;
   for (const std::string& word : words) {
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos || equals == 0)
-      throw CLI::ValidationError(app_messages::assignment_form_invalid(word).line());
+      throw CLI::ValidationError(app_messages::assignment_form_invalid(option, word, form).line());
     out.emplace_back(word.substr(0, equals), word.substr(equals + 1));
   }
   return out;
@@ -60,9 +61,9 @@ Overrides MissionOptions::overrides(const CLI::App* command) const {
   Overrides o;
   if (!io.empty()) o.io = io;
   if (command->count("--seed") > 0) o.seed = seed;
-  o.roles = pairs(roles);
-  o.set = pairs(set);
-  o.with = pairs(with);
+  o.roles = pairs(roles, "--role", "ROLE=COMPONENT");
+  o.set = pairs(set, "--set", "COMP.PARAM=VALUE");
+  o.with = pairs(with, "--with", "COMPONENT=FILE");
   o.record = record;
   if (!arm.empty()) o.arm = arm;
   for (const auto& [component, file] : o.with)

@@ -10,8 +10,9 @@
 
 namespace fulmar::core {
 
-/// "a=b" -> {a, b}. Throws CLI::ValidationError.
-std::vector<std::pair<std::string, std::string>> pairs(const std::vector<std::string>& words);
+/// "a=b" -> {a, b}. Throws CLI::ValidationError with the option and the form of its value, "ROLE=COMPONENT".
+std::vector<std::pair<std::string, std::string>> pairs(const std::vector<std::string>& words,
+                                                       const char* option, const char* form);
 
 /// Option that may be given several times, with one value each time.
 void add_pairs(CLI::App* command, const char* option, std::vector<std::string>& words, const char* type,

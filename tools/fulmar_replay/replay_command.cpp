@@ -244,8 +244,8 @@ ReplayCommand::ReplayCommand(CLI::App& app) {
 }
 
 int ReplayCommand::run() {
-  words_.changes.set = pairs(set_);
-  words_.changes.with = pairs(with_);
+  words_.changes.set = pairs(set_, "--set", "COMP.PARAM=VALUE");
+  words_.changes.with = pairs(with_, "--with", "COMPONENT=FILE");
   return carry_out(words_);
 }
 

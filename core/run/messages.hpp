@@ -24,9 +24,11 @@ inline constexpr MessageText command_missing{
     {"port"},
     "no sample on '{port}', although it is stepped and its inputs are fresh"};
 inline constexpr MessageText component_missing{
-    "run.component_missing", {"component"}, "there is no component '{component}' in this run"};
+    "run.component_missing",
+    {"component"},
+    "there is no component '{component}' in this run; remove its line under 'resume' in the mission"};
 inline constexpr MessageText component_not_active{
-    "run.component_not_active", {"component"}, "{component} is not active"};
+    "run.component_not_active", {"component"}, "{component} is not active in this phase"};
 inline constexpr MessageText component_not_created{"run.component_not_created",
                                                    {"component", "reason"},
                                                    "{component}: the component cannot be created: {reason}"};
@@ -40,12 +42,13 @@ inline constexpr MessageText constructor_failed{
     "run.constructor_failed", {"component", "reason"}, "{component}: its constructor {reason}"};
 inline constexpr MessageText control_given_up{"run.control_given_up",
                                               "a signal ended the control: the pilot has control"};
-inline constexpr MessageText driver_missing{
-    "run.driver_missing",
-    {"option", "mission"},
-    "--drivers-from {option}: the mission {mission} has no component with 'run: driver'"};
-inline constexpr MessageText driver_parameters_fixed{"run.driver_parameters_fixed",
-                                                     "a driver's parameters cannot change in flight"};
+inline constexpr MessageText driver_missing{"run.driver_missing",
+                                            {"option", "mission"},
+                                            "--drivers-from {option}: the mission {mission} has no component "
+                                            "with 'run: driver'; omit --drivers-from"};
+inline constexpr MessageText driver_parameters_fixed{
+    "run.driver_parameters_fixed",
+    "a driver's parameters cannot change in flight; set them in the mission and start the flight again"};
 inline constexpr MessageText end_deferred{
     "run.end_deferred", {"verdict", "reason"}, "{verdict}{reason}; the flight continues until disarmed"};
 inline constexpr MessageText ended_by_owner{"run.ended_by_owner", "ended by its owner"};
@@ -61,19 +64,21 @@ inline constexpr MessageText entrances_differ{
     "begins; start the flight again."};
 inline constexpr MessageText failsafe{
     "run.failsafe", {"component", "problem"}, "failsafe: {component}: {problem}"};
-inline constexpr MessageText failsafe_active{"run.failsafe_active",
-                                             "the flight is in its failsafe: no phase can be entered"};
+inline constexpr MessageText failsafe_active{
+    "run.failsafe_active",
+    "the flight is in its failsafe: no phase can be entered; land, disarm and start the flight again"};
 inline constexpr MessageText failsafe_over{"run.failsafe_over",
                                            "no commands until disarmed: the pilot has control"};
-inline constexpr MessageText flight_already_paused{"run.flight_already_paused",
-                                                   "the flight is already paused"};
+inline constexpr MessageText flight_already_paused{
+    "run.flight_already_paused", "the flight is already paused; fulmar resume continues it"};
 inline constexpr MessageText flight_behind{
     "run.flight_behind",
     {"delay_s"},
     "the flight is {delay_s} s behind the real time: the program was stopped, or the machine is too slow. It "
     "catches up as fast as it can"};
-inline constexpr MessageText flight_ended{"run.flight_ended", "the flight has ended"};
-inline constexpr MessageText flight_not_paused{"run.flight_not_paused", "the flight is not paused"};
+inline constexpr MessageText flight_ended{"run.flight_ended", "the flight has ended; start it again"};
+inline constexpr MessageText flight_not_paused{"run.flight_not_paused",
+                                               "the flight is not paused; fulmar pause pauses it"};
 inline constexpr MessageText guard_not_reset{
     "run.guard_not_reset",
     {"reason"},
@@ -99,13 +104,15 @@ inline constexpr MessageText library_build_differs{
     {"file", "build", "program_build"},
     "{file} is from build {build}, this program from build {program_build}: build or install both together"};
 inline constexpr MessageText library_invalid{
-    "run.library_invalid", {"file"}, "{file} is not the Fulmar library that is needed here"};
+    "run.library_invalid",
+    {"file"},
+    "{file} is not the Fulmar library that is needed here; install or build Fulmar again"};
 inline constexpr MessageText library_missing{"run.library_missing",
                                              {"files", "target"},
                                              "its library is missing. Searched: {files}. Install the package "
                                              "fulmar, or build it: cmake --build build --target {target}"};
 inline constexpr MessageText library_needs{
-    "run.library_needs", {"fault", "needs"}, "{fault}. It needs {needs}"};
+    "run.library_needs", {"fault", "needs"}, "{fault}. The library needs {needs}"};
 inline constexpr MessageText live_view_missing{
     "run.live_view_missing", {"reason"}, "the flight has no live view: {reason}"};
 inline constexpr MessageText log_ends_early{"run.log_ends_early", {"fault"}, " The log ends early: {fault}"};
@@ -113,7 +120,9 @@ inline constexpr MessageText log_failed{
     "run.log_failed", {"reason"}, "the flight continues without a log: {reason}"};
 inline constexpr MessageText log_incomplete{"run.log_incomplete", {"problem", "reason"}, "{problem}{reason}"};
 inline constexpr MessageText log_phase_missing{
-    "run.log_phase_missing", {"reason"}, "the log names no phase to resume from.{reason}"};
+    "run.log_phase_missing",
+    {"reason"},
+    "the log names no phase to resume from. Name another log with --resume.{reason}"};
 inline constexpr MessageText log_phase_unknown{"run.log_phase_unknown",
                                                {"phase", "mission", "phases"},
                                                "the log ends in the phase '{phase}', which the mission "
@@ -123,15 +132,19 @@ inline constexpr MessageText loop_would_wait{"run.loop_would_wait", "the loop wo
 inline constexpr MessageText message_size_invalid{
     "run.message_size_invalid",
     {"component", "port", "size", "type", "expected"},
-    "{component}.{port}: {size} bytes are not a {type}, which has {expected} bytes"};
+    "{component}.{port}: {size} bytes are not a {type}, which has {expected} bytes. Build the sender with "
+    "the definition of this flight"};
 inline constexpr MessageText mission_changed{
     "run.mission_changed",
     {"file", "difference"},
     "{file} has changed since this flight began ({difference}): end the flight, and start it again"};
 inline constexpr MessageText mission_differs{
-    "run.mission_differs", {"found", "mission"}, "the log is of the mission {found}, not of {mission}"};
-inline constexpr MessageText mission_file_missing{
-    "run.mission_file_missing", "this flight was not read from a mission file: no component can be swapped"};
+    "run.mission_differs",
+    {"found", "mission"},
+    "the log is of the mission {found}, not of {mission}. Name a log of {mission} with --resume"};
+inline constexpr MessageText mission_file_missing{"run.mission_file_missing",
+                                                  "this flight was not read from a mission file, so no "
+                                                  "component can be swapped. Start the flight from a file"};
 inline constexpr MessageText mission_not_done{
     "run.mission_not_done", {"limit"}, "not done within {limit} s of flight"};
 inline constexpr MessageText no_candidate{
@@ -170,12 +183,14 @@ inline constexpr MessageText parameter_default_changed{"run.parameter_default_ch
 inline constexpr MessageText parameter_not_live{
     "run.parameter_not_live",
     {"component", "parameter"},
-    "{component}.{parameter} cannot change in flight: it is a set-up parameter, a record or a file"};
+    "{component}.{parameter} cannot change in flight: it is a set-up parameter, a record or a file. Set it "
+    "in the mission and start the flight again"};
 inline constexpr MessageText parameter_set{"run.parameter_set", {"name", "value"}, "{name} = {value}"};
 inline constexpr MessageText parameters_added{"run.parameters_added", {"parameters"}, "new: {parameters}"};
 inline constexpr MessageText parameters_kept{"run.parameters_kept", {"parameters"}, "keeps {parameters}"};
-inline constexpr MessageText parameters_refused{"run.parameters_refused",
-                                                "its plugin rejects the parameters and gives no reason"};
+inline constexpr MessageText parameters_refused{
+    "run.parameters_refused",
+    "its plugin rejects the parameters and gives no reason; fulmar inspect shows their ranges"};
 inline constexpr MessageText parameters_removed{
     "run.parameters_removed", {"parameters"}, "gone: {parameters}"};
 inline constexpr MessageText phase_entered{"run.phase_entered", {"phase"}, "phase {phase}"};
@@ -224,23 +239,25 @@ inline constexpr MessageText resumed_fields_differ{
     {"topic", "type"},
     "{topic} in the log has other fields than {type} now. Resume with the release and the plugins that wrote "
     "the log, or set the parameter with --set"};
-inline constexpr MessageText resumed_value_invalid{
-    "run.resumed_value_invalid",
-    {"field", "found", "parameter", "min", "max"},
-    "{field} was {found} in the log; {parameter} must be from {min} to {max}"};
+inline constexpr MessageText resumed_value_invalid{"run.resumed_value_invalid",
+                                                   {"field", "found", "parameter", "min", "max"},
+                                                   "{field} was {found} in the log, but {parameter} must be "
+                                                   "from {min} to {max}. Set {parameter} with --set"};
 inline constexpr MessageText role_output_absent{
     "run.role_output_absent", {"role", "reason"}, "the role {role} published nothing; {reason}"};
 inline constexpr MessageText sample_missing{
-    "run.sample_missing", {"topic", "reason"}, "the log holds no sample of {topic}.{reason}"};
+    "run.sample_missing",
+    {"topic", "reason"},
+    "the log holds no sample of {topic}. Name a log with --resume that records it.{reason}"};
 inline constexpr MessageText samples_unordered{
     "run.samples_unordered",
     {"log", "topic"},
-    "'{log}' has samples of {topic} that are not in the order of time"};
+    "'{log}' has samples of {topic} that are not in the order of time; record the log again"};
 inline constexpr MessageText signal_refused{
     "run.signal_refused", "the aircraft is armed: a second Ctrl-C within 5 s returns control to the pilot"};
 inline constexpr MessageText step_order_differs{"run.step_order_differs", "another order of components"};
 inline constexpr MessageText step_without_pause{"run.step_without_pause",
-                                                "the flight is not paused; a step requires a paused flight"};
+                                                "the flight is not paused; pause it first with fulmar pause"};
 inline constexpr MessageText steps_in_progress{"run.steps_in_progress",
                                                "another step command is in progress; send the command again"};
 inline constexpr MessageText swap_not_possible{
@@ -256,21 +273,23 @@ inline constexpr MessageText time_not_monotonic{
     "run.time_not_monotonic", {"from_ns", "to_ns"}, "the time of the tick went from {from_ns} to {to_ns} ns"};
 inline constexpr MessageText too_many_calls{"run.too_many_calls", "has too many unfinished calls"};
 inline constexpr MessageText too_many_commands{
-    "run.too_many_commands", {"count"}, "{count} commands wait for the flight; there is no room for more"};
-inline constexpr MessageText too_many_requests{
-    "run.too_many_requests",
-    {"component", "request", "count"},
-    "{component}.{request} has {count} requests waiting; there is no room for more"};
+    "run.too_many_commands",
+    {"count"},
+    "{count} commands wait for the flight; there is no room for more. Send the command again later"};
+inline constexpr MessageText too_many_requests{"run.too_many_requests",
+                                               {"component", "request", "count"},
+                                               "{component}.{request} has {count} requests waiting; there is "
+                                               "no room for more. Send the request again later"};
 inline constexpr MessageText took_over{"run.took_over", {"component"}, "{component} takes over"};
 inline constexpr MessageText topic_fields_differ{
     "run.topic_fields_differ",
     {"topic", "component", "output", "type", "plugin"},
     "{topic} has other fields than {component}.{output}, a {type}: {plugin} recorded it. Record the log "
     "again, or load that plugin with --with {component}=FILE"};
-inline constexpr MessageText value_not_carried{
-    "run.value_not_carried",
-    {"parameter", "found", "min", "max"},
-    "its parameter '{parameter}' is {found} now, but the new file allows only {min} to {max}"};
+inline constexpr MessageText value_not_carried{"run.value_not_carried",
+                                               {"parameter", "found", "min", "max"},
+                                               "its parameter '{parameter}' is {found} now, but the new file "
+                                               "allows only {min} to {max}. Set it into this range first"};
 inline constexpr MessageText value_out_of_range{
     "run.value_out_of_range",
     {"component", "parameter", "found", "min", "max", "unit"},

@@ -22,7 +22,9 @@ inline constexpr MessageText comparison_without_field{
     {"left", "symbol", "right"},
     "'{left} {symbol} {right}' compares no field; one side must be a field such as nav.state.height_m"};
 inline constexpr MessageText component_of_other_io{
-    "graph.component_of_other_io", {"component", "io"}, "{component} exists only with io: {io}"};
+    "graph.component_of_other_io",
+    {"component", "io"},
+    "{component} exists only with io: {io}; name another component, or set io: {io}"};
 inline constexpr MessageText component_rate_too_high{
     "graph.component_rate_too_high",
     {"component", "rate", "mission_rate"},
@@ -32,9 +34,10 @@ inline constexpr MessageText components_share_roles{
     {"first", "first_roles", "second", "second_roles"},
     "{first} ({first_roles}) and {second} ({second_roles}) share roles and cannot be active together. Choose "
     "one of them in this phase."};
-inline constexpr MessageText condition_empty{"graph.condition_empty", "the condition is empty"};
-inline constexpr MessageText condition_expected{"graph.condition_expected",
-                                                "expected a condition under 'when'"};
+inline constexpr MessageText condition_empty{
+    "graph.condition_empty", "the condition is empty; write one such as nav.state.height_m > 30 m"};
+inline constexpr MessageText condition_expected{
+    "graph.condition_expected", "expected a condition under 'when', such as \"nav.state.height_m > 30 m\""};
 inline constexpr MessageText condition_text_invalid{
     "graph.condition_text_invalid",
     {"found"},
@@ -125,7 +128,9 @@ inline constexpr MessageText event_fields_missing{"graph.event_fields_missing",
                                                   "'{port}' is {type}; the verdict needs an output with the "
                                                   "text fields 'word' and 'text', such as score.verdict"};
 inline constexpr MessageText extends_cycle{
-    "graph.extends_cycle", {"chain", "name"}, "extends: the files extend each other: {chain}{name}"};
+    "graph.extends_cycle",
+    {"chain", "name"},
+    "extends: the files extend each other: {chain}{name}. Remove 'extends' from one of them"};
 inline constexpr MessageText extends_file_invalid{
     "graph.extends_file_invalid", {"reason"}, "extends: {reason}"};
 inline constexpr MessageText failsafe_input_unknown{
@@ -134,10 +139,10 @@ inline constexpr MessageText fallback_already_active{
     "graph.fallback_already_active",
     {"place", "component"},
     "{place}.fallback: {component} is already the active component; name another one, or remove fallback"};
-inline constexpr MessageText fences_differ{
-    "graph.fences_differ",
-    {"component", "other"},
-    "{component}.fence differs from {other}.fence: the aircraft may leave one of them"};
+inline constexpr MessageText fences_differ{"graph.fences_differ",
+                                           {"component", "other"},
+                                           "{component}.fence differs from {other}.fence: the aircraft may "
+                                           "leave one of them. Give both the same geofence"};
 inline constexpr MessageText field_ambiguous{
     "graph.field_ambiguous",
     {"place", "found", "choices"},
@@ -150,7 +155,8 @@ inline constexpr MessageText field_not_flag{
     "graph.field_not_flag",
     {"field", "plugin", "choices"},
     "'{field}' of {plugin} is not a flag, which is true or false.{choices}"};
-inline constexpr MessageText field_not_list{"graph.field_not_list", {"field"}, "'{field}' is not a list"};
+inline constexpr MessageText field_not_list{
+    "graph.field_not_list", {"field"}, "'{field}' is not a list; write its name without an index"};
 inline constexpr MessageText field_not_number{
     "graph.field_not_number",
     {"field", "kind"},
@@ -166,7 +172,7 @@ inline constexpr MessageText field_without_parts{
     "graph.field_without_parts",
     "this field is a single value and has no parts; remove what follows its name"};
 inline constexpr MessageText file_is_folder{
-    "graph.file_is_folder", {"path"}, "{path} is a folder, not a file"};
+    "graph.file_is_folder", {"path"}, "{path} is a folder, not a file; name a file"};
 inline constexpr MessageText file_missing{
     "graph.file_missing", {"file", "hint"}, "there is no file {file}{hint}"};
 inline constexpr MessageText file_not_private{
@@ -176,7 +182,7 @@ inline constexpr MessageText file_not_private{
 inline constexpr MessageText file_not_readable{
     "graph.file_not_readable", {"name", "reason"}, "{name} cannot be read: {reason}"};
 inline constexpr MessageText file_not_regular{
-    "graph.file_not_regular", {"path"}, "{path} is not a regular file"};
+    "graph.file_not_regular", {"path"}, "{path} is not a regular file; name a file on a disk"};
 inline constexpr MessageText file_owner_foreign{"graph.file_owner_foreign",
                                                 {"name", "user", "file"},
                                                 "{name} is not loaded: it belongs to user {user}. Make "
@@ -283,7 +289,8 @@ inline constexpr MessageText latency_misplaced{
 inline constexpr MessageText latency_missing{"graph.latency_missing",
                                              "'run: async' requires a latency above 0, as in latency: 200 "
                                              "ms. The outputs of the component appear after this time"};
-inline constexpr MessageText list_empty{"graph.list_empty", "the list is empty and has no item to set"};
+inline constexpr MessageText list_empty{"graph.list_empty",
+                                        "the list is empty and has no item to set; give the whole list"};
 inline constexpr MessageText list_not_rising{
     "graph.list_not_rising",
     {"found", "reason"},
@@ -313,8 +320,8 @@ inline constexpr MessageText live_token_missing{
 inline constexpr MessageText map_expected{"graph.map_expected",
                                           {"place", "keys", "found"},
                                           "{place}expected a map with the keys {keys}; found {found}"};
-inline constexpr MessageText memory_exhausted{"graph.memory_exhausted",
-                                              "there is not enough memory to read it"};
+inline constexpr MessageText memory_exhausted{
+    "graph.memory_exhausted", "there is not enough memory to read this file; end other programs"};
 inline constexpr MessageText memory_size_invalid{
     "graph.memory_size_invalid",
     {"found"},
@@ -328,7 +335,7 @@ inline constexpr MessageText message_types_differ{
 inline constexpr MessageText message_types_mismatch{
     "graph.message_types_mismatch",
     {"component", "input", "type", "output", "found"},
-    "{component}.{input} takes {type}, but {output} is {found}"};
+    "{component}.{input} takes {type}, but {output} is {found}. Connect an output of type {type}"};
 inline constexpr MessageText mission_name_invalid{
     "graph.mission_name_invalid",
     {"found"},
@@ -340,7 +347,8 @@ inline constexpr MessageText mission_parameter_misplaced{
 inline constexpr MessageText mission_rate_invalid{
     "graph.mission_rate_invalid",
     {"component", "rate", "min", "max", "plugin"},
-    "components.{component}: the mission's rate of {rate} Hz is outside {min} .. {max} Hz of {plugin}"};
+    "components.{component}: the mission's rate of {rate} Hz is outside {min} .. {max} Hz of {plugin}; "
+    "change 'rate' of the mission"};
 inline constexpr MessageText more_faults{
     "graph.more_faults", {"limit"}, "there are more faults than these {limit}"};
 inline constexpr MessageText name_invalid{
@@ -354,7 +362,7 @@ inline constexpr MessageText name_too_long{
 inline constexpr MessageText number_compared_to_label{
     "graph.number_compared_to_label",
     {"field", "found"},
-    "'{field}' is a number and cannot be compared with '{found}'"};
+    "'{field}' is a number and cannot be compared with '{found}'; compare it with a number"};
 inline constexpr MessageText number_count_invalid{
     "graph.number_count_invalid",
     {"count", "names", "found"},
@@ -445,11 +453,12 @@ inline constexpr MessageText phase_settings_lost{
     "graph.phase_settings_lost",
     {"role", "component", "phase", "parameters"},
     "--role {role}={component}: {component} also has the role in the phase {phase}, which sets {parameters}; "
-    "{component} has no such live parameter"};
+    "{component} has no such live parameter. Name another component"};
 inline constexpr MessageText phase_unreachable{
     "graph.phase_unreachable",
     {"phase", "first_phase"},
-    "phases.{phase}: no transition leads here from {first_phase}, where the flight begins"};
+    "phases.{phase}: no transition leads here from {first_phase}, where the flight begins. Add a transition, "
+    "or remove the phase"};
 inline constexpr MessageText phase_vehicle_fixed{
     "graph.phase_vehicle_fixed",
     "the vehicle does not change in flight; choose it with io or with --role vehicle=NAME. A phase can 'set' "
@@ -459,7 +468,9 @@ inline constexpr MessageText plugin_component_unknown{
     {"reason", "name", "plugin", "component"},
     "{reason} Name one, as in --with {name}={plugin}/{component}"};
 inline constexpr MessageText plugin_file_missing{
-    "graph.plugin_file_missing", {"plugin"}, "there is no plugin file '{plugin}'"};
+    "graph.plugin_file_missing",
+    {"plugin"},
+    "there is no plugin file '{plugin}'; correct the path, or build the plugin"};
 inline constexpr MessageText plugin_name_too_long{"graph.plugin_name_too_long",
                                                   {"component", "kind", "name", "plugin", "length", "limit"},
                                                   "components.{component}: the {kind} '{name}' of {plugin} "
@@ -476,7 +487,7 @@ inline constexpr MessageText plugin_unknown{"graph.plugin_unknown",
                                             {"plugin", "folders", "choices"},
                                             "there is no plugin '{plugin}'. Searched in {folders}.{choices}"};
 inline constexpr MessageText plugin_without_components{
-    "graph.plugin_without_components", {"plugin"}, "{plugin} has no component"};
+    "graph.plugin_without_components", {"plugin"}, "{plugin} has no component; name another plugin"};
 inline constexpr MessageText port_expected{
     "graph.port_expected", {"found"}, "expected a port such as nav.state, found '{found}'"};
 inline constexpr MessageText port_name_expected{
@@ -493,9 +504,9 @@ inline constexpr MessageText probe_without_fields{
     "graph.probe_without_fields",
     {"component", "probe"},
     "'{component}.{probe}' is a probe: one number, without fields"};
-inline constexpr MessageText program_not_installed{
-    "graph.program_not_installed",
-    ": 'fulmar:' names files of an installed Fulmar, and this one is not installed"};
+inline constexpr MessageText program_not_installed{"graph.program_not_installed",
+                                                   ": 'fulmar:' names files of an installed Fulmar, and this "
+                                                   "one is not installed; write the path of the file"};
 inline constexpr MessageText quantity_negative{
     "graph.quantity_negative", {"value"}, "{value} is negative; expected 0 or more"};
 inline constexpr MessageText quantity_not_positive{
@@ -595,16 +606,20 @@ inline constexpr MessageText simulated_input{
     {"component", "input", "port"},
     "{component}.{input} takes vehicle.{port}, which exists only in simulation. Connect another output, "
     "because {component} steers the aircraft or decides its phase."};
-inline constexpr MessageText simulated_output{
-    "graph.simulated_output",
-    {"place"},
-    "{place} exists only in simulation; a transition on hardware cannot use it"};
+inline constexpr MessageText simulated_output{"graph.simulated_output",
+                                              {"place"},
+                                              "{place} exists only in simulation; a transition on hardware "
+                                              "cannot use it. Use an output of a component"};
 inline constexpr MessageText source_missing{"graph.source_missing",
                                             "'from' is missing, as in {{from: nav.state, max_age: 0.5 s}"};
 inline constexpr MessageText still_named{
-    "graph.still_named", {"name", "places"}, "this file removes {name}, but these still name it: {places}"};
+    "graph.still_named",
+    {"name", "places"},
+    "this file removes {name}, but these still name it: {places}. Change or remove them, too"};
 inline constexpr MessageText stored_file_missing{
-    "graph.stored_file_missing", {"file"}, "the log holds no file {file}"};
+    "graph.stored_file_missing",
+    {"file"},
+    "the log holds no file {file}, so its mission cannot be read; use the log as fulmar run wrote it"};
 inline constexpr MessageText summary_key_reserved{
     "graph.summary_key_reserved", {"key"}, "'{key}' is a key of every result; choose another name"};
 inline constexpr MessageText summary_of_probe{
@@ -673,7 +688,9 @@ inline constexpr MessageText vehicle_role_invalid{
     {"place", "plugin", "role"},
     "{place}{plugin} is a vehicle and can fill only the role vehicle, not {role}"};
 inline constexpr MessageText vehicle_roles_shared{
-    "graph.vehicle_roles_shared", {"place"}, "{place}the vehicle fills only the role vehicle"};
+    "graph.vehicle_roles_shared",
+    {"place"},
+    "{place}the vehicle fills only the role vehicle; remove its other roles"};
 inline constexpr MessageText vehicle_run_invalid{
     "graph.vehicle_run_invalid",
     {"place"},

@@ -4,9 +4,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 
 #include "core/graph/stored_files.hpp"
 #include "core/loader/store.hpp"
@@ -25,7 +27,8 @@ namespace fs = std::filesystem;
 fs::path private_folder() {
   std::string name = (fs::temp_directory_path() / "fulmar-replay-XXXXXX").string();
   if (::mkdtemp(name.data()) == nullptr)
-    throw Error(replay_messages::folder_not_creatable(fs::temp_directory_path().string()));
+    throw Error(
+        replay_messages::folder_not_creatable(fs::temp_directory_path().string(), std::strerror(errno)));
   return name;
 }
 

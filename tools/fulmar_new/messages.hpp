@@ -19,13 +19,20 @@ inline constexpr MessageText component_unspecified{
     "new.component_unspecified",
     "the new component is not specified. Give --role ROLE, --template sensor, --template planner, or its "
     "ports, as in --in state=nav.state --out range=Range"};
-inline constexpr MessageText file_not_readable{"new.file_not_readable", {"file"}, "cannot read {file}"};
-inline constexpr MessageText file_not_writable{"new.file_not_writable", {"file"}, "cannot write {file}"};
-inline constexpr MessageText folder_is_file{"new.folder_is_file", {"path"}, "{path} is a file, not a folder"};
+inline constexpr MessageText file_not_readable{
+    "new.file_not_readable", {"file", "reason"}, "cannot read {file}: {reason}"};
+inline constexpr MessageText file_not_writable{
+    "new.file_not_writable", {"file", "reason"}, "cannot write {file}: {reason}"};
+inline constexpr MessageText folder_is_file{
+    "new.folder_is_file",
+    {"path"},
+    "{path} is a file, not a folder; give another name, or move that file away"};
 inline constexpr MessageText folder_not_creatable{
     "new.folder_not_creatable", {"folder", "reason"}, "cannot make the folder {folder}: {reason}"};
 inline constexpr MessageText folder_not_empty{
-    "new.folder_not_empty", {"folder"}, "the folder {folder} is not empty"};
+    "new.folder_not_empty",
+    {"folder"},
+    "the folder {folder} is not empty; give another name, or move that folder away"};
 inline constexpr MessageText mission_unknown{
     "new.mission_unknown",
     {"mission", "choices"},
@@ -33,7 +40,8 @@ inline constexpr MessageText mission_unknown{
 inline constexpr MessageText missions_missing{
     "new.missions_missing",
     {"folder", "program"},
-    "the folder {folder} has no missions, and no source tree is above {program}"};
+    "the folder {folder} has no missions, and no source tree is above {program}. Install Fulmar again, or "
+    "run fulmar new of a source tree"};
 inline constexpr MessageText name_in_use{
     "new.name_in_use",
     {"mission", "kind", "name", "suggestion"},
@@ -58,25 +66,27 @@ inline constexpr MessageText plugin_name_reserved{
     {"name", "suggestion"},
     "'{name}' is a reserved name of the build. Choose another name, as in my_{suggestion}"};
 inline constexpr MessageText port_duplicate{
-    "new.port_duplicate", {"port"}, "the port '{port}' is given twice"};
+    "new.port_duplicate", {"port"}, "the port '{port}' is given twice; give each port its own name"};
 inline constexpr MessageText port_form_invalid{
     "new.port_form_invalid", {"option", "found", "form"}, "{option} {found}: write NAME={form}"};
 inline constexpr MessageText program_path_unknown{
     "new.program_path_unknown", {"reason"}, "cannot find the path of this program: {reason}"};
-inline constexpr MessageText role_duplicate{"new.role_duplicate", {"role"}, "--role {role} is given twice"};
+inline constexpr MessageText role_duplicate{
+    "new.role_duplicate", {"role"}, "--role {role} is given twice; give it once"};
 inline constexpr MessageText role_input_type_unknown{
     "new.role_input_type_unknown",
     {"role", "input", "source"},
-    "roles.{role}.in.{input}: no component states the message type of {source}"};
+    "roles.{role}.in.{input}: no component states the message type of {source}. Connect an output of a "
+    "component instead"};
 inline constexpr MessageText role_inputs_conflict{
     "new.role_inputs_conflict",
     {"role", "input", "source", "other_source"},
-    "roles.{role}.in.{input} is {source}, but another of the given roles takes it from {other_source}. One "
-    "new component cannot fill these roles"};
+    "roles.{role}.in.{input} is {source}, but another of the given roles takes it from {other_source}. Give "
+    "--role for only one of them"};
 inline constexpr MessageText role_outputs_conflict{"new.role_outputs_conflict",
                                                    {"first_role", "second_role", "output"},
                                                    "the roles {first_role} and {second_role} both have an "
-                                                   "output '{output}': one component cannot fill both"};
+                                                   "output '{output}'. Give --role for only one of them"};
 inline constexpr MessageText role_template_unknown{
     "new.role_template_unknown",
     {"template_name", "role", "choices"},
@@ -86,8 +96,9 @@ inline constexpr MessageText role_unknown{
     {"role", "mission", "choices"},
     "--role {role}: {mission} has no such role.{choices} For a component without a role give --template "
     "sensor, --template planner, --in and --out"};
-inline constexpr MessageText role_with_ports{
-    "new.role_with_ports", "--role defines all ports: --in and --out are for a component without a role"};
+inline constexpr MessageText role_with_ports{"new.role_with_ports",
+                                             "--role defines all ports: --in and --out are for a component "
+                                             "without a role. Omit --role, or omit these two"};
 inline constexpr MessageText roles_filled{
     "new.roles_filled", {"plural", "roles"}, "fills the role{plural}`{roles}` of"};
 inline constexpr MessageText roles_not_filled{"new.roles_not_filled", "fills no role of"};
@@ -122,7 +133,8 @@ inline constexpr MessageText templates_missing{
     "the folder {folder} has no templates: install the package fulmar-dev"};
 inline constexpr MessageText vehicle_replaced{
     "new.vehicle_replaced", {"replaced"}, "It is active from the start, in place of {replaced}."};
-inline constexpr MessageText vehicle_with_roles{"new.vehicle_with_roles",
-                                                "the role vehicle cannot be combined with other roles"};
+inline constexpr MessageText vehicle_with_roles{
+    "new.vehicle_with_roles",
+    "the role vehicle cannot be combined with other roles; give --role vehicle alone"};
 
 }  // namespace fulmar::new_messages

@@ -2,7 +2,9 @@
 #include "tools/fulmar_new/new_command.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -22,7 +24,7 @@ namespace {
 
 std::string read_text(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw Error(new_messages::file_not_readable(file.string()));
+  if (!in) throw Error(new_messages::file_not_readable(file.string(), std::strerror(errno)));
   std::ostringstream text;
   text << in.rdbuf();
   return text.str();
@@ -32,7 +34,7 @@ void write_text(const fs::path& file, const std::string& text) {
   std::ofstream out(file, std::ios::binary);
   out << text;
   out.close();
-  if (!out) throw Error(new_messages::file_not_writable(file.string()));
+  if (!out) throw Error(new_messages::file_not_writable(file.string(), std::strerror(errno)));
 }
 
 std::string replaced(std::string text, const std::vector<std::pair<std::string, std::string>>& words) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/fulmar_live/completion.hpp"
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -61,7 +63,7 @@ std::string rows_of(const char* name) {
   std::string quoted = "'";
   for (const char c : program) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   std::FILE* pipe = ::popen((quoted + "' --rows").c_str(), "r");
-  if (pipe == nullptr) throw Error(remote_messages::program_not_startable(program));
+  if (pipe == nullptr) throw Error(remote_messages::program_not_startable(program, std::strerror(errno)));
   std::string text;
   char buffer[4096];
   for (std::size_t n = 0; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) text.append(buffer, n);

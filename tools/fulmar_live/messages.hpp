@@ -20,19 +20,21 @@ inline constexpr MessageText csv_ports_differ{
     "remote.csv_ports_differ",
     {"field", "first_field"},
     "--csv accepts fields of one port; {field} and {first_field} belong to different ports"};
-inline constexpr MessageText encoding_unsupported{
-    "remote.encoding_unsupported",
-    {"topic", "encoding"},
-    "{topic} has the encoding '{encoding}', which is not supported"};
+inline constexpr MessageText encoding_unsupported{"remote.encoding_unsupported",
+                                                  {"topic", "encoding"},
+                                                  "{topic} has the encoding '{encoding}', but only cdr is "
+                                                  "supported. Use the same release of Fulmar on both sides"};
 inline constexpr MessageText estimate_absent{"remote.estimate_absent", "no estimate"};
 inline constexpr MessageText field_duplicate{
-    "remote.field_duplicate", {"field"}, "the field '{field}' is given twice"};
+    "remote.field_duplicate", {"field"}, "the field '{field}' is given twice; give it once"};
 inline constexpr MessageText field_form_invalid{
     "remote.field_form_invalid",
     {"found"},
     "'{found}' is not of the form field=value; or give all in braces, as in '{{radius_m: 80}'"};
 inline constexpr MessageText field_is_scalar{
-    "remote.field_is_scalar", {"path", "field"}, "{path} is a single value and has no field '{field}'"};
+    "remote.field_is_scalar",
+    {"path", "field"},
+    "{path} is a single value and has no field '{field}'; give {path} alone"};
 inline constexpr MessageText field_missing{
     "remote.field_missing",
     {"request", "suggestion", "choices"},
@@ -68,11 +70,14 @@ inline constexpr MessageText index_out_of_range{
     "remote.index_out_of_range",
     {"path", "size", "last"},
     "{path} has room for {size} elements; the last one is [{last}]"};
-inline constexpr MessageText list_expected{"remote.list_expected", {"path"}, "{path} is not a list"};
+inline constexpr MessageText list_expected{
+    "remote.list_expected", {"path"}, "{path} is not a list; give it without an index"};
 inline constexpr MessageText live_option_of_log{
-    "remote.live_option_of_log", "--seconds is of a running flight; of a log name --from and --to"};
+    "remote.live_option_of_log", "--seconds is for a running flight; for a log give --from and --to"};
 inline constexpr MessageText log_expected{
-    "remote.log_expected", {"file"}, "{file} is not a log: it does not begin as an MCAP file"};
+    "remote.log_expected",
+    {"file"},
+    "{file} is not a log: it does not begin as an MCAP file. Give the log of a flight, which ends in .mcap"};
 inline constexpr MessageText log_incomplete{
     "remote.log_incomplete",
     {"log"},
@@ -87,7 +92,7 @@ inline constexpr MessageText log_missing{
 inline constexpr MessageText log_option_without_log{
     "remote.log_option_without_log",
     {"option", "field"},
-    "{option} is of logs: give a log first, as in fulmar plot flight.mcap {field}"};
+    "{option} is for logs: give a log first, as in fulmar plot flight.mcap {field}"};
 inline constexpr MessageText map_expected{
     "remote.map_expected", {"found"}, "'{found}' is not a map {{field: value}"};
 inline constexpr MessageText message_field_expected{
@@ -105,7 +110,9 @@ inline constexpr MessageText nothing_wrong{"remote.nothing_wrong", "nothing is w
 inline constexpr MessageText number_invalid{
     "remote.number_invalid", {"kind", "found"}, "give {kind}, not '{found}'"};
 inline constexpr MessageText numeric_field_expected{
-    "remote.numeric_field_expected", {"field"}, "{field} is not a number"};
+    "remote.numeric_field_expected",
+    {"field"},
+    "{field} is not a number, which a plot requires; give a field that is a number"};
 inline constexpr MessageText order_accepted{
     "remote.order_accepted", {"order", "time"}, "{order}: accepted, at {time} s of flight"};
 inline constexpr MessageText owner_unknown{
@@ -137,9 +144,11 @@ inline constexpr MessageText parameters_missing{
     "remote.parameters_missing",
     "give NAME VALUE [NAME VALUE ...], as in fulmar param set slc.roll_limit \"35 deg\""};
 inline constexpr MessageText parameters_unchanged{"remote.parameters_unchanged",
-                                                  "The files say already what flies."};
+                                                  "The files already hold the values of the flight."};
 inline constexpr MessageText pattern_unmatched{
-    "remote.pattern_unmatched", {"pattern"}, "no parameter of this flight matches '{pattern}'"};
+    "remote.pattern_unmatched",
+    {"pattern"},
+    "no parameter of this flight matches '{pattern}'; fulmar param list shows all of them"};
 inline constexpr MessageText phase_overlays_parameter{
     "remote.phase_overlays_parameter", ", from the next phase on: this phase sets it to something else"};
 inline constexpr MessageText phase_unknown{
@@ -157,9 +166,12 @@ inline constexpr MessageText port_number_invalid{
 inline constexpr MessageText port_unknown{
     "remote.port_unknown", {"owner", "port", "choices"}, "{owner} has no port '{port}'.{choices}"};
 inline constexpr MessageText program_missing{
-    "remote.program_missing", {"program"}, "the program {program} is missing beside this one"};
+    "remote.program_missing",
+    {"program"},
+    "the program {program} is missing beside this one. Install Fulmar again, or build it: cmake --build "
+    "build --target flight"};
 inline constexpr MessageText program_not_startable{
-    "remote.program_not_startable", {"program"}, "{program} cannot be started"};
+    "remote.program_not_startable", {"program", "reason"}, "{program} cannot be started: {reason}"};
 inline constexpr MessageText program_start_failed{
     "remote.program_start_failed", {"program", "reason"}, "{program} cannot be started: {reason}"};
 inline constexpr MessageText request_rejected{
@@ -171,14 +183,17 @@ inline constexpr MessageText restart_accepted{"remote.restart_accepted",
 inline constexpr MessageText restarted_flight_missing{
     "remote.restarted_flight_missing",
     {"address"},
-    "restart: accepted, but no new flight listens on {address}; the terminal of the flight shows the reason"};
+    "restart: accepted, but no new flight listens on {address}; read the reason in the terminal of the "
+    "flight"};
 inline constexpr MessageText sample_absent{"remote.sample_absent", "no sample yet"};
 inline constexpr MessageText service_unknown{"remote.service_unknown",
                                              {"address", "service", "choices"},
                                              "the flight on {address} has no service '{service}'.{choices}"};
 inline constexpr MessageText stopped_by_guard{"remote.stopped_by_guard", "stopped by a guard"};
 inline constexpr MessageText subcommands_not_listed{
-    "remote.subcommands_not_listed", {"program"}, "{program} does not list its subcommands"};
+    "remote.subcommands_not_listed",
+    {"program"},
+    "{program} does not list its subcommands; install or build it together with this program"};
 inline constexpr MessageText token_rejected{
     "remote.token_rejected",
     {"address", "token_state"},
@@ -190,15 +205,18 @@ inline constexpr MessageText vehicle_silent{"remote.vehicle_silent", "the vehicl
 inline constexpr MessageText verdict_missing{
     "remote.verdict_missing",
     {"address"},
-    "the response of the flight on {address} does not state whether the request is accepted"};
+    "the response of the flight on {address} does not state whether the request is accepted. Use the same "
+    "release of Fulmar on both sides"};
 inline constexpr MessageText view_missing{
-    "remote.view_missing", {"address"}, "the flight on {address} does not report its description"};
+    "remote.view_missing",
+    {"address"},
+    "the flight on {address} does not report its description. Use the same release of Fulmar on both sides"};
 inline constexpr MessageText viewer_not_installed{
     "remote.viewer_not_installed", {"viewer"}, "{viewer} is not installed here: open it by hand."};
 inline constexpr MessageText viewer_unknown{
     "remote.viewer_unknown", {"viewer", "choices"}, "there is no viewer '{viewer}'.{choices}"};
-inline constexpr MessageText viewer_without_live_view{
-    "remote.viewer_without_live_view",
-    "rerun opens logs, not a running flight; for that --in page, lichtblick, foxglove or plotjuggler"};
+inline constexpr MessageText viewer_without_live_view{"remote.viewer_without_live_view",
+                                                      "rerun opens logs, not a running flight. For a flight "
+                                                      "give --in page, lichtblick, foxglove or plotjuggler"};
 
 }  // namespace fulmar::remote_messages

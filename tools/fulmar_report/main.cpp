@@ -2,7 +2,9 @@
 // `fulmar report LOG [LOG...] -o FILE.html`, as the program fulmar-report. Exit codes: 0 done; 1 it failed; 2
 // wrong usage.
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -94,7 +96,7 @@ int write_report(const Words& words) {
   std::ofstream to(out, std::ios::binary);
   to << html;
   to.close();
-  if (!to) throw core::Error(fulmar::report_messages::report_not_writable(out));
+  if (!to) throw core::Error(fulmar::report_messages::report_not_writable(out, std::strerror(errno)));
   for (const report::ReportedLog& log : logs)
     if (!log.info.file.fault.empty())
       std::printf("%s ends early: %s\n", core::printable(log.name).c_str(),

@@ -85,7 +85,7 @@ struct Reading {
   /// Fields that are missing in the log's definition, as in older logs, are left out.
   void find_fields(const std::vector<std::string>& fields) {
     type = core::parse_ros_definition(shown.type, shown.schema);
-    if (type->size > largest_message) throw core::Error(report_messages::messages_too_large());
+    if (type->size > largest_message) throw core::Error(report_messages::messages_too_large(shown.type));
     message.resize(type->size);
     const auto place = [&](const std::string& field) -> std::optional<core::FieldRef> {
       try {

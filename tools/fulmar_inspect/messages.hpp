@@ -21,10 +21,11 @@ inline constexpr MessageText rate_in_child{"inspect.rate_in_child", {"rate"}, "{
 inline constexpr MessageText replaced_component_read{
     "inspect.replaced_component_read",
     {"reader", "component", "mission", "successors"},
-    "{reader} reads {component}, which steers in {mission} and not here: {successors} steers"};
+    "{reader} reads {component}, which steers in {mission} and not here. Connect {reader} to {successors}, "
+    "which steers here"};
 inline constexpr MessageText report_list_incomplete{
     "inspect.report_list_incomplete",
     {"port", "place"},
-    "{port} is missing, which {place} lists; a list replaces the other list"};
+    "{port} is missing, which {place} lists. This list replaces that one; add {port} here"};
 
 }  // namespace fulmar::inspect_messages

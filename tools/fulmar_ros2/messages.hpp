@@ -8,11 +8,12 @@ namespace fulmar::ros2_messages {
 inline constexpr MessageText field_name_invalid{
     "ros2.field_name_invalid",
     {"message", "field"},
-    "{message}.{field} is not a valid field name in ROS: lower-case letters, digits and single underscores."};
+    "{message}.{field} is not a valid field name in ROS. Rename it in the plugin: lower-case letters, digits "
+    "and single underscores, a letter first"};
 inline constexpr MessageText file_not_writable{
     "ros2.file_not_writable", {"file", "reason"}, "{file} cannot be written: {reason}"};
 inline constexpr MessageText folder_expected{
-    "ros2.folder_expected", {"path"}, "{path} exists and is not a folder."};
+    "ros2.folder_expected", {"path"}, "{path} exists and is not a folder. Name another folder"};
 inline constexpr MessageText folder_in_use{
     "ros2.folder_in_use",
     {"folder"},
@@ -27,6 +28,7 @@ inline constexpr MessageText message_name_ambiguous{
 inline constexpr MessageText message_name_invalid{
     "ros2.message_name_invalid",
     {"message"},
-    "'{message}' is not a valid name of a ROS message: a capital letter, then letters and digits."};
+    "'{message}' is not a valid name of a ROS message. Rename it in the plugin: a capital letter, then "
+    "letters and digits"};
 
 }  // namespace fulmar::ros2_messages

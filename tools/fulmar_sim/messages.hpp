@@ -11,7 +11,9 @@ inline constexpr MessageText altitude_out_of_range{
     "simulation.altitude_out_of_range",
     {"found"},
     "origin_altitude is {found} m and must be from -1000 to 20000"};
-inline constexpr MessageText error_unknown{"simulation.error_unknown", "an unknown error"};
+inline constexpr MessageText error_unknown{
+    "simulation.error_unknown",
+    "an unknown error inside the simulation; report it with the call that you used"};
 inline constexpr MessageText heading_not_finite{
     "simulation.heading_not_finite", {"found"}, "the given heading is {found}; give a finite angle in rad"};
 inline constexpr MessageText height_invalid{
@@ -19,12 +21,12 @@ inline constexpr MessageText height_invalid{
 inline constexpr MessageText level_flight_missing{
     "simulation.level_flight_missing",
     {"airspeed", "height"},
-    "no steady level flight at {airspeed} m/s and {height} m height"};
+    "no steady level flight exists at {airspeed} m/s and {height} m height; give another airspeed or height"};
 inline constexpr MessageText memory_exhausted{"simulation.memory_exhausted",
-                                              "there is not enough memory for it"};
+                                              "there is not enough memory; simulate fewer aircraft"};
 inline constexpr MessageText other_process{
     "simulation.other_process",
-    "the simulation was made by another process, whose threads did not come along: make one here"};
+    "the simulation belongs to another process and cannot be used after a fork; make one in this process"};
 inline constexpr MessageText wind_out_of_range{
     "simulation.wind_out_of_range", {"found"}, "the wind is {found} m/s and must be within +-1000"};
 

@@ -60,7 +60,8 @@ inline constexpr MessageText group_incomplete{"path.group_incomplete",
                                               "its group was incomplete when another began; send it again"};
 inline constexpr MessageText group_outdated{"path.group_outdated",
                                             "the plan changed before the group was complete; send it again"};
-inline constexpr MessageText group_refused{"path.group_refused", "another edit of its group was refused"};
+inline constexpr MessageText group_refused{
+    "path.group_refused", "another edit of its group was rejected; correct it, send all again"};
 inline constexpr MessageText group_size_missing{
     "path.group_size_missing", "an edit of a group needs its group_size, the number of edits"};
 inline constexpr MessageText group_sizes_differ{"path.group_sizes_differ",
@@ -92,9 +93,10 @@ inline constexpr MessageText origin_too_far{"path.origin_too_far",
 inline constexpr MessageText plan_empty{
     "path.plan_empty",
     "the plan has no waypoints. To change one value of a plan, write a key such as plan.turn_radius."};
-inline constexpr MessageText plan_full{"path.plan_full", "the plan is full: 1024 waypoints"};
+inline constexpr MessageText plan_full{"path.plan_full",
+                                       "the plan is full with 1024 waypoints; remove one first"};
 inline constexpr MessageText plan_without_waypoints{"path.plan_without_waypoints",
-                                                    "the plan has no waypoints"};
+                                                    "the plan has no waypoints; append one first"};
 inline constexpr MessageText position_back{"path.position_back",
                                            "the position is back: the path is flown again"};
 inline constexpr MessageText position_lost{
@@ -130,21 +132,21 @@ inline constexpr MessageText turn_radius_out_of_range{
 inline constexpr MessageText turn_radius_tight{
     "path.turn_radius_tight",
     {"radius", "bank", "limit", "least"},
-    "turn_radius {radius} m takes {bank} deg of bank; roll_max {limit} deg gives {least} m"};
+    "turn_radius {radius} m takes {bank} deg of bank; with roll_max {limit} deg set {least} m or more"};
 inline constexpr MessageText waypoint_above_ceiling{
     "path.waypoint_above_ceiling",
     {"height", "ceiling"},
     "the waypoint is at {height} m, above the fence's ceiling of {ceiling} m"};
-inline constexpr MessageText waypoint_after_close{"path.waypoint_after_close",
-                                                  "less than 1 m horizontally from the waypoint after it"};
-inline constexpr MessageText waypoint_before_close{"path.waypoint_before_close",
-                                                   "less than 1 m horizontally from the waypoint before it"};
+inline constexpr MessageText waypoint_after_close{
+    "path.waypoint_after_close", "less than 1 m horizontally from the waypoint after it; move one"};
+inline constexpr MessageText waypoint_before_close{
+    "path.waypoint_before_close", "less than 1 m horizontally from the waypoint before it; move one"};
 inline constexpr MessageText waypoint_below_floor{
     "path.waypoint_below_floor",
     {"height", "floor"},
     "the waypoint is at {height} m, below the fence's floor of {floor} m"};
 inline constexpr MessageText waypoint_id_unknown{
-    "path.waypoint_id_unknown", {"id"}, "the plan has no waypoint with the id {id}"};
+    "path.waypoint_id_unknown", {"id"}, "the plan has no waypoint with the id {id}; see the output plan"};
 inline constexpr MessageText waypoint_index_unknown{
     "path.waypoint_index_unknown", {"index", "last"}, "the plan has no waypoint {index}; valid: 0 to {last}"};
 inline constexpr MessageText waypoint_frame_unknown{
@@ -170,6 +172,6 @@ inline constexpr MessageText waypoint_without_place{
 inline constexpr MessageText waypoints_close{
     "path.waypoints_close",
     {"first", "second"},
-    "waypoints {first} and {second} are less than 1 m apart horizontally"};
+    "waypoints {first} and {second} are less than 1 m apart horizontally; move one"};
 
 }  // namespace fulmar::path_messages

@@ -77,12 +77,12 @@ class SensorLine {
     if (t.jitter_s > 0.45 / t.rate_hz)
       throw std::runtime_error(
           located("sensor_file",
-                  sim_aero_messages::jitter_too_large(name, figures(t.jitter_s), figures(0.45 / t.rate_hz)))
+                  sim_aero_messages::jitter_too_large(name, figures(t.jitter_s), at_most(0.45 / t.rate_hz)))
               .line());
     if (t.latency_s > (Delay<T>::capacity - 1) * period_s_)
       throw std::runtime_error(located("sensor_file", sim_aero_messages::latency_too_large(
                                                           name, figures(t.latency_s),
-                                                          figures((Delay<T>::capacity - 1) * period_s_)))
+                                                          at_most((Delay<T>::capacity - 1) * period_s_)))
                                    .line());
     if (t.dropouts_frac > 0) lose(t);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Start of the flight: on the ground, in the hand or on the catapult, or in trimmed level flight.
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <stdexcept>
 
@@ -33,6 +34,18 @@ inline void lift(Plant& plant, double height_m, double pitch_rad) {
   plant.set_state(x);
 }
 
+/// Throws if the aircraft is in the ground. Its height is normal to a slope, and `start_height` is vertical.
+inline void refuse_below_ground(Plant& plant, double least_m, double start_height_m) {
+  const double height_m = plant.height_above_ground();
+  if (height_m >= least_m) return;
+  lift(plant, 1, 0);
+  const double gain = plant.height_above_ground() - height_m;
+  const double start_m = std::ceil(start_height_m + (least_m - height_m) / gain);
+  throw std::runtime_error(located("start_height", sim_aero_messages::start_below_ground(
+                                                       figures(start_height_m, 6), figures(start_m, 6)))
+                               .line());
+}
+
 /// `now_ns`: time of the position, before flight time 0.
 inline void place(Plant& plant, const Airframe& a, double origin_alt_m, const StartParams& p,
                   const LaunchParams& launching, std::int64_t now_ns) {
@@ -50,11 +63,7 @@ inline void place(Plant& plant, const Airframe& a, double origin_alt_m, const St
   if (!in_air || !plant.fly({p.start_north, p.start_east, -p.start_height}, p.start_heading, Va))
     throw std::runtime_error(
         trim_words(a, flight, own ? "start_airspeed" : "airframe.limits.airspeed_cruise"));
-  if (const double missing_m = a.gear.height_m - plant.height_above_ground(); missing_m > 0)
-    throw std::runtime_error(
-        located("start_height", sim_aero_messages::start_below_ground(figures(p.start_height, 6),
-                                                                      figures(p.start_height + missing_m, 4)))
-            .line());
+  refuse_below_ground(plant, a.gear.height_m, p.start_height);
   plant.shift(1e-9 * static_cast<double>(now_ns));
 }
 

@@ -125,7 +125,7 @@ struct CommandLine {
     importer
         ->add_option("--inertia", w.inertia,
                      "set the inertia xx yy zz [xz] in kg m^2; default: from the files")
-        ->expected(3, 4);
+        ->expected(1, 4);  // options_of() refuses 1 and 2
     importer->add_option("--cruise", w.cruise,
                          "set cruise airspeed, as in \"17 m/s\"; default: from the files, or at CL 0.5");
     importer->add_option("--parasite-drag", w.parasite_drag,

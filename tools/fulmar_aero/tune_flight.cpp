@@ -28,7 +28,9 @@ namespace fs = std::filesystem;
 struct FlightFolder {
   fs::path path;
   FlightFolder() {
-    std::string name = (fs::temp_directory_path() / "fulmar-tune-XXXXXX").string();
+    std::error_code fault;
+    std::string name = (fs::temp_directory_path(fault) / "fulmar-tune-XXXXXX").string();
+    if (fault) throw core::Error(aero_messages::flight_folder_missing(name, fault.message()));
     if (!::mkdtemp(name.data()))
       throw core::Error(aero_messages::flight_folder_missing(name, std::strerror(errno)));
     path = name;

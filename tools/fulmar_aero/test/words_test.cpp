@@ -183,4 +183,14 @@ TEST_CASE("modes over a range of speeds: every speed that is flown, and why the 
   CHECK(nowhere.says("aero.picture_not_writable(" + folder.path.string() + "/no/a.svg)"));
 }
 
+TEST_CASE("a refused import names the line and the value") {
+  const Folder folder;
+  const std::string file = (folder.path / "x8_param.json").string();
+  std::ofstream(file) << "{\"C_L_alpha\": 4,\n \"C_l_p\": -0.4,\n \"b\": }\n";
+  CHECK(call("import " + file).says("x8_param.json:3: aero.json_invalid"));
+  std::ofstream(file) << "{\"C_L_alpha\": 4,\n \"C_l_p\": -0.4, \"S_wing\": -1, \"b\": 2, \"c\": 1}\n";
+  CHECK(call("import " + file).says("x8_param.json:2 S_wing: aero.positive_value_expected(-1)"));
+  CHECK(call("import " + file + " --inertia 1 2").says("aero.inertia_values_expected(2)"));
+}
+
 }  // namespace words_test

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pitot and receiver fail together in flights of the shipped autopilot: error and reported standard deviation
 // of the airspeed, with thrust and drag in place of the pitot and without. Exits 1 when a bound is exceeded.
-// bench_airspeed [--json] [--seeds N] [NAME]
+// bench_airspeed [--json] [--seeds N] [--with PLUGIN.so] [NAME]: PLUGIN.so in place of the shipped estimator
 #include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -58,17 +58,19 @@ unsigned missed(const Case& c, const std::string& sensors, const Flown& f, unsig
 int main(int argc, char** argv) {
   unsigned seeds = 10, misses = 0;
   bool json = false;
-  std::string only;
+  std::string only, estimator;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word == "--seeds" && i + 1 < argc && std::atoi(argv[i + 1]) > 0)
       seeds = static_cast<unsigned>(std::atoi(argv[++i]));
+    else if (word == "--with" && i + 1 < argc)
+      estimator = argv[++i];
     else if (word == "--json")
       json = true;
     else if (word[0] != '-' && only.empty())
       only = word;
     else {
-      std::fprintf(stderr, "usage: bench_airspeed [--json] [--seeds N] [NAME]\n");
+      std::fprintf(stderr, "usage: bench_airspeed [--json] [--seeds N] [--with PLUGIN.so] [NAME]\n");
       return 2;
     }
   }
@@ -89,7 +91,7 @@ int main(int argc, char** argv) {
           Flown sum;
           unsigned down = 0;
           for (unsigned seed = 1; seed <= seeds; ++seed) {
-            const Flown f = fly(c, sensors, wired, seed, folder);
+            const Flown f = fly(c, sensors, wired, seed, folder, estimator);
             sum.add(f);
             down += f.crashed;
           }

@@ -130,9 +130,11 @@ class Watched {
   core::Source truth_, state_;
 };
 
-inline Flown fly(const Case& c, const std::string& sensors, bool wired, unsigned seed,
-                 const fs::path& folder) {
+/// `estimator`: a plugin in place of the shipped one, or empty.
+inline Flown fly(const Case& c, const std::string& sensors, bool wired, unsigned seed, const fs::path& folder,
+                 const std::string& estimator = "") {
   core::Overrides overrides;
+  if (!estimator.empty()) overrides.with.emplace_back("ekf", estimator);
   overrides.seed = seed;
   const core::Graph graph = core::load_mission(mission_of(c, sensors, wired, folder).string(), overrides);
   return Watched(c, graph).fly();

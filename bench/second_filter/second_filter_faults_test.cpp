@@ -197,4 +197,19 @@ TEST_CASE("faults: a window that is over is judged before the next one begins") 
   CHECK(flight.f.find_fault(60).first == baro_bias);
 }
 
+TEST_CASE("faults: a jump smaller than the least is none, however certain it is") {
+  for (const double size : {2.5, -2.5, 3.5, -3.5}) {
+    CAPTURE(size);
+    Filter f = simulated::filter_at({});
+    f.begin_jumps();
+    Scalar z;
+    z.innovation = size;
+    z.H(baro_bias) = 1;
+    for (int k = 0; k < 60; ++k) f.fuse(z, 0.25, 5, Vector::Zero());
+    const Fault fault = f.find_fault(60);
+    CHECK((fault.first == baro_bias) == (std::abs(size) > 3));
+    CHECK(f(baro_bias) == doctest::Approx(fault.first < 0 ? 0 : size).epsilon(0.01));
+  }
+}
+
 }  // namespace second_filter_faults_test

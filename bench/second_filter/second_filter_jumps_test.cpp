@@ -284,6 +284,20 @@ TEST_CASE("jumps: one that explains less than half of what is odd is none; a rec
   }
 }
 
+TEST_CASE("jumps: what a drift explains is not explained by a jump of the same sensor") {
+  for (const int others : {35, 45}) {
+    CAPTURE(others);
+    Jumps jumps(30);
+    const Matrix3d no = Matrix3d::Zero();
+    jumps.predicted(no, no, no, 10, Vector::Ones());  // the drift has come to as much as the jump
+    seen(jumps, row_of(baro_bias), 4, 40);
+    seen(jumps, row_of(wind), 4, others);
+    CHECK(jumps.size_of(about(baro_bias, true)) == doctest::Approx(4).epsilon(1e-3));
+    CHECK((jumps.ratio(20, true)[about(baro_bias)] > 0) == (others < 40));
+    CHECK((jumps.ratio(20, true)[about(baro_bias, true)] > 0) == (others < 40));
+  }
+}
+
 TEST_CASE("jumps: a pitot needs three times the evidence, and each hypothesis its time in the window") {
   Jumps jumps(10);
   seen(jumps, row_of(tube_bias), 4, 40);

@@ -35,6 +35,8 @@ struct Sensors {
   double baro_off_m = 0, tube_share = 1;                               ///< of the pressures
   double field_turn = 0;                                               ///< rad: of the magnetometer
   bool has_unit = true, has_others = true;
+  double age_s = 0;        ///< of a fix
+  double shaken_mps2 = 0;  ///< noise of the accelerometers beside the usual
   int ticks = 0;
 
   explicit Sensors(std::uint64_t seed, bool turns = true) : r(seed), path{turns} {
@@ -53,12 +55,13 @@ struct Sensors {
   double time_s() const { return 0.01 * ticks; }
   Vector3d v_n() const { return path.v_n(time_s()) + wind_n; }
   double height_error() const { return n.filter()(pos + 2) - p_n.z(); }
+  Vector2d place_error() const { return (n.filter().state().p_n() - p_n).head<2>(); }
   Vector2d wind_error() const { return n.filter().state().air_n().head<2>() - wind_n.head<2>(); }
 
   void unit() {
     constexpr double dt = 0.01;
     n.imu(path.rate_b(time_s()) + gyro_off + 5e-4 / std::sqrt(dt) * normal(r),
-          path.force_b(time_s()) + accel_off + 0.02 / std::sqrt(dt) * normal(r), time_s(), p);
+          path.force_b(time_s()) + accel_off + (0.02 / std::sqrt(dt) + shaken_mps2) * normal(r), time_s(), p);
   }
   void step() {
     const Vector3d v_before = v_n();
@@ -79,17 +82,17 @@ struct Sensors {
     if (ticks % 20 == 0) fix();
   }
   void fix() {
-    const LocalFrame::Geodetic at = frame.from_ned(p_n + fix_off + 0.3 * normal(r));
+    const LocalFrame::Geodetic at = frame.from_ned(p_n - age_s * v_n() + fix_off + 0.3 * normal(r));
     Gnss fix;
     fix.fix = FixType::fix_3d;
     fix.latitude_deg = at.lat_deg;
     fix.longitude_deg = at.lon_deg;
     fix.altitude_m = at.alt_m;
-    fix.velocity_mps = from_eigen<Ned>(Vector3d(v_n() + 0.05 * normal(r)));
+    fix.velocity_mps = from_eigen<Ned>(Vector3d(path.v_n(time_s() - age_s) + wind_n + 0.05 * normal(r)));
     fix.horizontal_std_m = 2;
     fix.vertical_std_m = 3;
     fix.speed_std_mps = 0.2;
-    n.gnss(fix, time_s(), p);
+    n.gnss(fix, time_s() - age_s, p);
   }
   void fly(double seconds) {
     for (int k = 0; k < std::lround(100 * seconds); ++k) step();
@@ -109,6 +112,7 @@ TEST_CASE("navigator: a flight without a fault stays without one, and near the t
   CHECK(std::abs(s.height_error()) < 1.5);
   CHECK(s.wind_error().norm() < 1);
   CHECK(s.n.resets().count == 0);
+  CHECK(s.n.filter().sideslip_gust == s.p.sideslip_gust);
 }
 
 TEST_CASE("navigator: at half pressure of the pitot the wind stays, whatever an old hypothesis has become") {
@@ -135,22 +139,27 @@ TEST_CASE("navigator: after a gap of 2 s the height is that of before, with a re
   for (const double off : {4.0, -4.0}) {
     CAPTURE(off);
     Sensors s(62);
-    s.fix_off.z() = off;
+    s.fix_off << 0.5, -0.5, off;
+    s.age_s = 0.15;
     s.fly(60);
     const double before = s.height_error();
+    const Vector2d place = s.place_error();
     s.has_unit = false;
     s.fly(2);
     s.has_unit = true;
     s.n.imu(s.path.rate_b(s.time_s()), s.path.force_b(s.time_s()), s.time_s(), s.p);
     CHECK(s.n.regaining());
-    double moved = 0;
+    double moved = 0, moved_aside = 0;
     int aligned = 0;
     for (int k = 0; k < 1000; ++k) {
       s.fly(0.01);
       if (!s.n.aligned()) continue;
       ++aligned;
       moved = std::max(moved, std::abs(s.height_error() - before));
+      moved_aside = std::max(moved_aside, (s.place_error() - place).norm());
+      if (aligned == 1) CHECK(s.n.filter().std(pos) < 2.5);
     }
+    CHECK(moved_aside < 2);
     CHECK(aligned > 500);
     CHECK(moved < 1.5);
     CHECK(s.n.resets().count == 1);
@@ -171,6 +180,9 @@ TEST_CASE("navigator: a jump of the barometer is named, and its walk fades with 
   const double usual = s.p.baro_walk * std::sqrt(baro.level.slow());
   CHECK(s.n.filter().block(baro_bias).walk ==
         doctest::Approx(std::hypot(usual, std::exp(-(s.time_s() - baro.faulty_s) / 5))).epsilon(1e-6));
+  CHECK(baro.level.slow() != doctest::Approx(1).epsilon(0.02));
+  CHECK(s.n.filter().block(port).walk ==
+        doctest::Approx(s.p.static_port_walk * std::sqrt(std::max(baro.level.slow(), 0.25))));
   CHECK(std::abs(s.n.filter()(baro_bias) - 12) < 3);
   CHECK(std::abs(s.height_error()) < 2);
 }
@@ -184,6 +196,44 @@ TEST_CASE("navigator: accelerometers that jump along x and y at once are named, 
   CHECK((s.n.filter().state().at<3>(accel_bias) - s.accel_off).norm() < 0.4);
   CHECK(s.n.health().gyro.faulty_s == never);
   CHECK(s.n.health().heading.faulty_s == never);
+}
+
+TEST_CASE("navigator: accelerometers that are shaken are not judged") {
+  for (const double shaken : {0.0, 1.0, 5.0}) {
+    CAPTURE(shaken);
+    Sensors s(68);
+    s.shaken_mps2 = shaken;
+    s.fly(50);
+    s.accel_off << 3, 3, 0;
+    s.fly(4);
+    CHECK((s.n.health().accel.faulty_s > 50) == (shaken < 3));
+  }
+}
+
+TEST_CASE("navigator: a pitot has its noise in pascals, of its scale, and that of being late") {
+  for (const double ahead : {0.0, 20.0}) {
+    CAPTURE(ahead);
+    Sensors s(69, false);
+    s.p.pitot_scale.value = 1.1;
+    s.p.pitot_speed_std.value = 0.4;
+    s.fly(0.5);
+    s.has_others = false;
+    s.accel_off.x() = ahead;
+    s.fly(0.3);
+    const Filter& f = s.n.filter();
+    const double density = standard_air(alt_m - f(pos + 2)).density_kgm3,
+                 speed = f.state().through_air_n().norm();
+    // The airspeed of 0.1 s before: less by 20 m/s2 times the share of 0.1 s that 0.3 s fill.
+    const double late = ahead * 0.1 * (1 - std::exp(-3.0)), per_speed = density * speed;
+    const double by_speed = 0.4 * per_speed;
+    Scalar z;
+    z.H = tube_pressure(f, 0, density, 1 / 1.1).H;
+    const double variance =
+        (1 + by_speed * by_speed) * s.n.health().pitot.level.white() + std::pow(late * per_speed, 2);
+    const double std = f.expected_std(z, variance), read = 0.5 * density * std::pow(speed / 1.1, 2) + 2 * std;
+    s.n.pitot(read, s.p);
+    CHECK(s.n.health().pitot.ratio == doctest::Approx(2).epsilon(0.04));
+  }
 }
 
 TEST_CASE("navigator: after a fault each error may go on changing, by the integral of the fading walk") {

@@ -78,14 +78,14 @@ void OutFile::fail(const Diagnostic& why) {
 bool OutFile::still_there() {
   struct stat about {
   }, named{};
-  if (::fstat(fd_, &about) != 0) return failed("look at");
+  if (::fstat(fd_, &about) != 0) return failed("examine");
   if (about.st_nlink == 0) {
     fail(log_messages::log_removed(name_.string()));
     name_.clear();
     return false;
   }
   const bool there = ::stat(name_.c_str(), &named) == 0;
-  if (!there && errno != ENOENT && errno != ENOTDIR) return failed("look at");
+  if (!there && errno != ENOENT && errno != ENOTDIR) return failed("examine");
   if (!there || named.st_dev != about.st_dev || named.st_ino != about.st_ino) {
     note_move();
     return false;

@@ -2,10 +2,10 @@
 // The second formulation of the estimator as a component, in work; benches fly it in place of the shipped one
 // (--with bench_second_filter.so). Every slow sensor error is a state (states.hpp), one rule finds the fault
 // of any sensor (faults.hpp), each sensor adapts its noise to its innovations (monitor.hpp), and each
-// published standard deviation is the root of a diagonal of the covariance. Needs GeographicLib, as
-// geodesy.hpp.
+// published standard deviation is the root of a diagonal of the covariance. It has no airspeed without a
+// pitot yet. Needs GeographicLib, as geodesy.hpp.
 #pragma once
-#include "bench/second_filter/thrust.hpp"
+#include "bench/second_filter/sensors.hpp"
 #include "fulmar/eigen.hpp"
 #include "fulmar/flight/math/single.hpp"
 #include "fulmar/flight/navigation/ports.hpp"
@@ -63,7 +63,6 @@ struct Ekf {  ///< a component; or a member of one, with the same calls
       const bool had_one = navigator_.regaining() || shown_ != Shown::nothing;
       return had_one ? blind(in.imu.valid_at_ns(), p, out) : Status::degraded;
     }
-    if (in.commands) thrust(in, p);
     fuse_more(navigator_);
     fill(navigator_.filter().state(), navigator_.filter().R_nb(), navigator_.filter().rate_b(), p);
     if (navigator_.filter().time_s() - deviations_s_ > deviations_after_s) fill_deviations(p);
@@ -133,12 +132,6 @@ struct Ekf {  ///< a component; or a member of one, with the same calls
       navigator_.gnss(*in.gnss, 1e-9 * static_cast<double>(in.gnss.valid_at_ns()), p);
     if (take(in.pitot, pitot_ns_, tick)) navigator_.pitot(in.pitot->pressure_pa, p);
   }
-  /// Throttle that reaches the motor: not where a pilot or the vehicle itself flies.
-  void thrust(const Inputs& in, const Params& p) {
-    const bool commanded = !in.commands.stale() && in.commands.age_s() < commands_age_s &&
-                           (!in.status || !(in.status->override || in.status->failsafe));
-    thrust_.step(navigator_, in.commands->throttle_frac, commanded, dt_s_, p);
-  }
   /// Rotation of the controller's own attitude since the last inertial sample before the gap. Its heading may
   /// have any offset that is constant.
   void turned(const Inputs& in, const Tick& tick, const Params& p) {
@@ -177,7 +170,6 @@ struct Ekf {  ///< a component; or a member of one, with the same calls
   void probes(Outputs& out) const;
 
   Navigator navigator_;
-  Thrust thrust_;
   VehicleState state_;
   Vector3d rate_ = Vector3d::Zero();
   double dt_s_ = 0, deviations_s_ = never, checked_s_ = never;
@@ -361,7 +353,6 @@ inline void Ekf::fill_deviations(const Params& p) {
                      std::max(s.position_std_m.north, s.position_std_m.east) < position_valid_m;
   s.height_valid = known && seen.height && s.position_std_m.down < height_valid_m;
   s.wind_valid = known && std::max(s.wind_std_mps.north, s.wind_std_mps.east) < speed_valid_mps;
-  s.airspeed_from_model = known && navigator_.airborne() && !pitot && thrust_.in_use();
   s.airspeed_valid = known && (navigator_.airborne() ? pitot || s.airspeed_std_mps < speed_valid_mps : tube);
 }
 

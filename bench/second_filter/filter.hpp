@@ -242,7 +242,7 @@ class Filter {
       0.007;                             ///< 1/s: scale errors of the unit that look like a bias for a time
   static constexpr double calm_s = 0.5;  ///< without a rejection
   static constexpr double relearnt_share = 0.1;  ///< of a jump: its standard deviation afterwards
-  static constexpr int most_blocks = 21 + size - appended;
+  static constexpr int most_blocks = 20 + size - appended;
 
   struct Step {  ///< since the last update of the covariance
     Matrix3d R_dt = Matrix3d::Zero();

@@ -2,10 +2,10 @@
 // The second formulation of the estimator as a component, in work; benches fly it in place of the shipped one
 // (--with bench_second_filter.so). Every slow sensor error is a state (states.hpp), one rule finds the fault
 // of any sensor (faults.hpp), each sensor adapts its noise to its innovations (monitor.hpp), and each
-// published standard deviation is the root of a diagonal of the covariance. It has no airspeed without a
-// pitot yet. Needs GeographicLib, as geodesy.hpp.
+// published standard deviation is the root of a diagonal of the covariance. Needs GeographicLib, as
+// geodesy.hpp.
 #pragma once
-#include "bench/second_filter/sensors.hpp"
+#include "bench/second_filter/thrust.hpp"
 #include "fulmar/eigen.hpp"
 #include "fulmar/flight/math/single.hpp"
 #include "fulmar/flight/navigation/ports.hpp"
@@ -63,6 +63,7 @@ struct Ekf {  ///< a component; or a member of one, with the same calls
       const bool had_one = navigator_.regaining() || shown_ != Shown::nothing;
       return had_one ? blind(in.imu.valid_at_ns(), p, out) : Status::degraded;
     }
+    if (in.commands) thrust(in, p);
     fuse_more(navigator_);
     fill(navigator_.filter().state(), navigator_.filter().R_nb(), navigator_.filter().rate_b(), p);
     if (navigator_.filter().time_s() - deviations_s_ > deviations_after_s) fill_deviations(p);
@@ -132,6 +133,12 @@ struct Ekf {  ///< a component; or a member of one, with the same calls
       navigator_.gnss(*in.gnss, 1e-9 * static_cast<double>(in.gnss.valid_at_ns()), p);
     if (take(in.pitot, pitot_ns_, tick)) navigator_.pitot(in.pitot->pressure_pa, p);
   }
+  /// Throttle that reaches the motor: not where a pilot or the vehicle itself flies.
+  void thrust(const Inputs& in, const Params& p) {
+    const bool commanded = !in.commands.stale() && in.commands.age_s() < commands_age_s &&
+                           (!in.status || !(in.status->override || in.status->failsafe));
+    thrust_.step(navigator_, in.commands->throttle_frac, commanded, dt_s_, p);
+  }
   /// Rotation of the controller's own attitude since the last inertial sample before the gap. Its heading may
   /// have any offset that is constant.
   void turned(const Inputs& in, const Tick& tick, const Params& p) {
@@ -170,6 +177,7 @@ struct Ekf {  ///< a component; or a member of one, with the same calls
   void probes(Outputs& out) const;
 
   Navigator navigator_;
+  Thrust thrust_;
   VehicleState state_;
   Vector3d rate_ = Vector3d::Zero();
   double dt_s_ = 0, deviations_s_ = never, checked_s_ = never;
@@ -311,90 +319,6 @@ inline void Ekf::fill_air(const Nominal& x, const Matrix3d& R_nb) {
   s.airspeed_mps = Va;
   s.alpha_rad = std::atan2(u_b.z(), u_b.x());
   s.beta_rad = std::asin(std::clamp(u_b.y() / std::max(Va, 1e-3), -1.0, 1.0));
-}
-
-/// Each published standard deviation is that of the filter.
-inline void Ekf::fill_deviations(const Params& p) {
-  const Filter& f = navigator_.filter();
-  const Health& h = navigator_.health();
-  VehicleState& s = state_;
-  const double now = navigator_.time_s();
-  deviations_s_ = f.time_s();
-  const auto three = [&](int i) { return Vec3<Ned>{f.std(i), f.std(i + 1), f.std(i + 2)}; };
-  s.attitude_std_rad = three(theta);
-  s.velocity_std_mps = three(vel);
-  s.position_std_m = three(pos);
-  const auto air = [&](int i) {
-    Scalar z;
-    z.H(wind + i) = z.H(gust + i) = 1;
-    return f.expected_std(z, 0);
-  };
-  s.wind_std_mps = {air(0), air(1), unknown_std};
-  const bool pitot = now - h.pitot.accepted_s < pitot_lost_s,
-             tube = !navigator_.airborne() && navigator_.pitot_mps() > 0;
-  Scalar speed;
-  const Vector3d ahead = f.state().through_air_n().normalized();
-  speed.H.segment<3>(vel) = ahead.transpose();
-  speed.H.segment<2>(wind) = speed.H.segment<2>(gust) = -ahead.head<2>().transpose();
-  s.airspeed_std_mps = navigator_.airborne() ? f.expected_std(speed, 0) : tube ? tube_std_mps : unknown_std;
-  const auto origin = navigator_.origin();
-  s.origin_latitude_deg = origin.lat_deg;
-  s.origin_longitude_deg = origin.lon_deg;
-  s.origin_altitude_m = origin.alt_m;
-  const Seen& seen = navigator_.seen();
-  s.origin_valid = seen.origin;
-  const bool known = !navigator_.settling();
-  s.attitude_valid = known && seen.yaw &&
-                     std::max(s.attitude_std_rad.north, s.attitude_std_rad.east) < tilt_valid_rad &&
-                     s.attitude_std_rad.down < yaw_valid_rad;
-  s.velocity_valid = known && std::max({s.velocity_std_mps.north, s.velocity_std_mps.east,
-                                        s.velocity_std_mps.down}) < speed_valid_mps;
-  s.position_valid = known && seen.position && now - h.horizontal.accepted_s < p.gnss_timeout &&
-                     std::max(s.position_std_m.north, s.position_std_m.east) < position_valid_m;
-  s.height_valid = known && seen.height && s.position_std_m.down < height_valid_m;
-  s.wind_valid = known && std::max(s.wind_std_mps.north, s.wind_std_mps.east) < speed_valid_mps;
-  s.airspeed_valid = known && (navigator_.airborne() ? pitot || s.airspeed_std_mps < speed_valid_mps : tube);
-}
-
-inline void Ekf::publish_check(Outputs& out) {
-  const Filter& f = navigator_.filter();
-  const Health& h = navigator_.health();
-  checked_s_ = h.horizontal.accepted_s;
-  FilterCheck c;
-  const Covariance& P = f.covariance();
-  std::array<double, 9> over_std;
-  for (int i = 0; i < 9; ++i) over_std[static_cast<std::size_t>(i)] = 1 / f.std(i);
-  std::size_t k = 0;
-  for (std::size_t i = 1; i < 9; ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      c.correlation_ratio[k++] =  // theta, vel, pos
-          to_single(P(static_cast<int>(j), static_cast<int>(i)) * over_std[i] * over_std[j]);
-  c.position_innovation_ratio = from_eigen<Ned>(h.position_innovation);
-  c.velocity_innovation_ratio = from_eigen<Ned>(h.velocity_innovation);
-  c.mean_wind_mps = {f(wind), f(wind + 1), 0};
-  c.mean_wind_std_mps = {f.std(wind), f.std(wind + 1), unknown_std};
-  out.check.publish(c, imu_ns_);
-}
-
-inline void Ekf::probes(Outputs& out) const {
-  const Health& h = navigator_.health();
-  const Nominal& x = navigator_.filter().state();
-  out.horizontal_ratio = std::abs(h.horizontal.ratio);
-  out.height_ratio = std::abs(h.height.ratio);
-  out.velocity_ratio = std::abs(h.velocity.ratio);
-  out.baro_ratio = h.baro.ratio;
-  out.pitot_ratio = h.pitot.ratio;
-  out.sideslip_ratio = h.sideslip.ratio;
-  out.heading_ratio = h.heading.ratio;
-  out.refused_ratio = h.refused;
-  const Vector2d gust_n = x.at<2>(gust);
-  out.gust_north_mps = gust_n.x();
-  out.gust_east_mps = gust_n.y();
-  out.gust_mps = -gust_n.dot(x.through_air_n().head<2>().normalized());
-  out.baro_bias_m = x.x(baro_bias);
-  out.static_port_ratio = x.x(port);
-  out.heading_deviation_rad = x.x(mount);
-  out.gnss_delay_s = x.x(delay);
 }
 
 }  // namespace fulmar::second_filter

@@ -87,7 +87,8 @@ class Jumps {
       for (int k = 0; k < may_jump[i].count; ++k) e(k) = effect(column(i) + k) / std;
       Sums& s = sums_[i];
       const Matrix3d ee = e * e.transpose();
-      const double weight = trust * e.squaredNorm(), evidence = trust * std::abs(r) * e.norm();
+      // Of the fit: an outlier counts as one at the gate there, so that it does not hide a jump.
+      const double weight = trust * trust * e.squaredNorm(), evidence = trust * std::abs(r) * e.norm();
       s.information += trust * ee;
       s.seen += trust * r * e;
       s.weight += weight;

@@ -47,7 +47,7 @@ class Filter {
   }
   /// Appends one state of a component; returns its index. Throws std::length_error when there is no room.
   int append(double std, double walk, double time_s = 0, Drive effect = nullptr) {
-    if (last_ == size) throw std::length_error("at most 4 states can be appended to the filter");
+    if (last_ == size) throw std::length_error("at most 3 states can be appended to the filter");
     add_block({last_, 1, std, walk, time_s, effect});
     P_(last_, last_) = std * std;
     return last_++;
@@ -242,7 +242,7 @@ class Filter {
       0.007;                             ///< 1/s: scale errors of the unit that look like a bias for a time
   static constexpr double calm_s = 0.5;  ///< without a rejection
   static constexpr double relearnt_share = 0.1;  ///< of a jump: its standard deviation afterwards
-  static constexpr int most_blocks = 20 + size - appended;
+  static constexpr int most_blocks = 21 + size - appended;
 
   struct Step {  ///< since the last update of the covariance
     Matrix3d R_dt = Matrix3d::Zero();

@@ -83,6 +83,17 @@ inline Scalar tube_pressure(const Filter& f, double measured_pa, double density_
   return z;
 }
 
+/// Airspeed by a model, given as its difference to the estimated airspeed, with the error of the model.
+inline Scalar modelled_airspeed(const Filter& f, double difference_mps) {
+  const Vector3d u_n = f.state().through_air_n(), ahead = u_n / std::max(u_n.norm(), 1e-3);
+  Scalar z;
+  z.innovation = difference_mps - f(model);
+  z.H.segment<3>(vel) = ahead.transpose();
+  z.H.segment<2>(wind) = z.H.segment<2>(gust) = -ahead.head<2>().transpose();
+  z.H(model) = 1;
+  return z;
+}
+
 /// The air comes from ahead: the side component of the air velocity is that of the sideslip.
 inline Scalar coordinated(const Filter& f) {
   const Vector3d u_n = f.state().through_air_n(), r_y = f.R_nb().col(1);

@@ -298,7 +298,7 @@ inline constexpr double vibration_radps = 0.3, vibration_mps2 = 3;
 
 /// All sensor monitors.
 struct Health {
-  Aid gyro, accel, horizontal, height, velocity, baro, pitot, sideslip, heading;
+  Aid gyro, accel, horizontal, height, velocity, baro, pitot, sideslip, heading, model;
   Vector3d position_innovation = Vector3d::Zero(),
            velocity_innovation = Vector3d::Zero();  ///< ratios of a fix
   Triad rates, forces;

@@ -65,7 +65,7 @@ class Navigator {  ///< from samples of sensors to the state of the filter; SI u
     for (const int first : {theta, vel, pos, gyro_bias, accel_bias}) filter_.add_block({first, 3, 1});
     for (const int first : {wind, gust, fix_pos, fix_vel}) filter_.add_block({first, 2, 1});
     for (const int first : {fix_pos + 2, fix_vel + 2, +delay, +baro_bias, +port, +strength, +tube_scale,
-                            +tube_bias, +slip, +mount})
+                            +tube_bias, +slip, +mount, +model})
       filter_.add_block({first, 1, 1});
     filter_.add_block({iron, 3, 1});
     // In steep turns the sideslip is no measure of the climb.
@@ -119,6 +119,7 @@ class Navigator {  ///< from samples of sensors to the state of the filter; SI u
     set(iron, p.hard_iron_std, p.hard_iron_walk * slow(health_.heading, 0));
     set(tube_scale, p.pitot_scale_std, 0);
     set(tube_bias, 0, walk(health_.pitot, 0, 20));
+    set(model, 0, 0.03);
     filter_.renew();
   }
 
@@ -148,6 +149,7 @@ class Navigator {  ///< from samples of sensors to the state of the filter; SI u
   const Health& health() const { return health_; }
   Health& health() { return health_; }
   LocalFrame::Geodetic origin() const { return frame_.origin(); }
+  const Air& air() const { return air_; }
   double pitot_mps() const { return pitot_mps_; }  ///< smoothed true airspeed of the pitot alone
   double time_s() const { return time_s_; }
   void status(const VehicleStatus& s) { status_ = s; }

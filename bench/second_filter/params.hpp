@@ -75,8 +75,7 @@ struct Params {
   Param sideslip_gust{0.7, "", 0, 1,
                       "share of a change of the side wind that becomes sideslip, before the aircraft turns"};
   Param sideslip_time{1, "s", 0.05, 60, "correlation time of the sideslip"};
-  Param sideslip_noise{0.3, "m/s", 0.01, 20,
-                       "white part of the side component of the air velocity, at 10 Hz"};
+  Param sideslip_noise{2, "m/s", 0.01, 20, "white part of the side component of the air velocity, at 10 Hz"};
   Param min_airspeed{8, "m/s", 2, 12, "minimum airspeed at which pitot and sideslip are used"};
 
   // magnetometer

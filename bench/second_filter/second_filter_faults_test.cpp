@@ -212,4 +212,23 @@ TEST_CASE("faults: a jump smaller than the least is none, however certain it is"
   }
 }
 
+TEST_CASE("faults: outliers do not hide a drift, nor begin the long window again") {
+  for (const double outlier_m : {0.0, 60.0, 3000.0}) {
+    CAPTURE(outlier_m);
+    Flight flight(24);
+    REQUIRE(flight.fly(20).first == -1);
+    flight.f.begin_jumps();
+    const double before_s = flight.time_s;
+    Fault fault;
+    for (int k = 0; k < 10 && fault.first < 0; ++k) {
+      flight.outlier_m = outlier_m;
+      fault = flight.fly(4, 0.3);
+    }
+    CHECK(fault.first == baro_bias);
+    CHECK(fault.ramp);
+    CHECK(fault.size == doctest::Approx(3).epsilon(0.25));
+    CHECK(flight.time_s - before_s < 18);
+  }
+}
+
 }  // namespace second_filter_faults_test

@@ -228,8 +228,8 @@ TEST_CASE("jumps: of three states, the ratio is over the weighted mean square of
     const Vector3d sizes = information.inverse() * weighted;
     double left = 0, weights = 0;
     for (const Sample& s : samples) {
-      left += s.trust * s.e.squaredNorm() * std::pow(s.r - s.e.dot(sizes), 2);
-      weights += s.trust * s.e.squaredNorm();
+      left += s.trust * s.trust * s.e.squaredNorm() * std::pow(s.r - s.e.dot(sizes), 2);
+      weights += s.trust * s.trust * s.e.squaredNorm();
     }
     CHECK(beyond >= 3);
     CHECK((jumps.change(accel).segment<3>(accel_bias) - sizes).norm() < 1e-9);

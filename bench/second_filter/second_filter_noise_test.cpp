@@ -130,9 +130,9 @@ TEST_CASE(
   CHECK(std::abs(f.covariance()(gust, slip)) > 0.2 * f.std(gust) * f.std(slip));
 }
 
-TEST_CASE("navigator: a component can append four states to its filter") {
+TEST_CASE("navigator: a component can append three states to its filter") {
   Navigator navigator;
-  for (int i = 0; i < 4; ++i) CHECK_NOTHROW(navigator.filter().append(0.1, 0.01));
+  for (int i = 0; i < 3; ++i) CHECK_NOTHROW(navigator.filter().append(0.1, 0.01));
   CHECK_THROWS_AS(navigator.filter().append(0.1, 0.01), std::length_error);
 }
 

@@ -35,7 +35,8 @@ enum State : int {
   tube_bias = 33,   ///< Pa
   slip = 34,        ///< m/s: side component of the air velocity, to which the aircraft has not yet turned
   mount = 35,       ///< rad: turn of the magnetometer about the body z axis
-  appended = 36,    ///< of components with more sensors
+  model = 36,       ///< m/s: airspeed by thrust and drag minus true airspeed
+  appended = 37,    ///< of components with more sensors
   size = 40
 };
 

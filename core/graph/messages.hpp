@@ -260,7 +260,7 @@ inline constexpr MessageText choice_unknown{
 inline constexpr MessageText item_count_invalid{
     "graph.item_count_invalid", {"count", "noun", "limit"}, "{count}{noun}, but this is a list of {limit}"};
 inline constexpr MessageText item_incomplete{
-    "graph.item_incomplete", {"type", "missing"}, "this {type} is incomplete; missing: {missing}"};
+    "graph.item_incomplete", {"type", "missing"}, "this {type} is incomplete; add {missing}"};
 inline constexpr MessageText item_index_excessive{"graph.item_index_excessive",
                                                   {"count", "noun", "last"},
                                                   "the list has {count}{noun}, counted from [0] to [{last}]"};

@@ -303,7 +303,9 @@ inline constexpr MessageText text_memory_exhausted{
 inline constexpr MessageText text_missing{
     "loader.text_missing", {"item"}, "{item} is missing (a null pointer); point it at a text in the plugin"};
 inline constexpr MessageText text_not_terminated{
-    "loader.text_not_terminated", {"item"}, "{item} does not end in NUL within 4096 bytes; end it with NUL"};
+    "loader.text_not_terminated",
+    {"item"},
+    "{item} has no NUL in its first 4096 bytes; shorten it, or end it with NUL"};
 inline constexpr MessageText text_outside_memory{
     "loader.text_outside_memory",
     {"item"},

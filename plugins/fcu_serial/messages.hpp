@@ -105,8 +105,8 @@ inline constexpr MessageText mixer_invalid{"fcu_serial.mixer_invalid", "invalid 
 inline constexpr MessageText not_fixed_wing{
     "fcu_serial.not_fixed_wing",
     {"port"},
-    "the flight controller at {port} is set up for a multirotor. Set FIXED_WING to 1 and PRIMARY_MIXER to 9, "
-    "10 or 11, write the parameters, and power-cycle it"};
+    "the flight controller at {port} is set up for a multirotor. Set FIXED_WING to 1 and PRIMARY_MIXER to 9 "
+    "(fixed wing), 10 (V-tail) or 11 (your own matrix), write the parameters, and power-cycle it"};
 inline constexpr MessageText not_in_control{"fcu_serial.not_in_control", "not in control"};
 inline constexpr MessageText not_ready{"fcu_serial.not_ready", {"missing"}, "not ready: {missing}"};
 inline constexpr MessageText not_ready_armed_before{

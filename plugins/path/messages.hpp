@@ -39,7 +39,7 @@ inline constexpr MessageText edit_without_id_refused_again{
 inline constexpr MessageText edits_lost{"path.edits_lost",
                                         "edits of its group were lost; send the whole group again"};
 inline constexpr MessageText end_unknown{"path.end_unknown",
-                                         "the end of the plan is unknown; valid: circuit, orbit"};
+                                         "end has another value than circuit and orbit; set one of them"};
 inline constexpr MessageText final_approach{"path.final_approach", "the final approach"};
 inline constexpr MessageText glide_slope_steep{
     "path.glide_slope_steep",

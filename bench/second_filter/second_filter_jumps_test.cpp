@@ -284,7 +284,7 @@ TEST_CASE("jumps: one that explains less than half of what is odd is none; a rec
   }
 }
 
-TEST_CASE("jumps: what a drift explains is not explained by a jump of the same sensor") {
+TEST_CASE("jumps: a drift is not explained by a jump of the same sensor") {
   for (const int others : {35, 45}) {
     CAPTURE(others);
     Jumps jumps(30);
